@@ -1,0 +1,56 @@
+// Module to text: what a person includes in their engine, and what the judges run.
+//
+// The module has been through optimize (the promise `legal`). Dialects are tables; the writer
+// is one loop; file frames are templates. Total: a failure here is a bug.
+#pragma once
+
+#include "emit/target.h"
+#include "ir/module.h"
+
+#include <string>
+#include <vector>
+
+namespace lobe::emit {
+
+/// Lines first .. last (from 1) of an artifact were written for this place in a .lobe file.
+struct LineOrigin {
+    int first = 0;
+    int last = 0;
+    Span span;
+};
+
+struct Artifact {
+    std::string path;  ///< relative to the output folder: `callisto/ue4/Callisto.ush`
+    std::string text;
+    std::vector<LineOrigin> origins;
+};
+
+/// The files of one module for one target.
+std::vector<Artifact> emit(const ir::Module& module, const Sources& sources, const Target& target);
+
+/// A number format a function can be computed in on a device.
+enum class Precision { float32, float16 };
+
+/// A compute shader that evaluates one function at many points: the function exactly as `emit`
+/// writes it for this target, everything it calls, its entry point from vectors, and a main that
+/// reads the inputs of point i from a storage buffer at binding 0 and writes its results to one
+/// at binding 1. Floats, tightly packed: inputs are the scalars of `evaluate::Tape::inputs` of
+/// the entry point, in that order. Workgroups of 64; a push constant `uint count` bounds it.
+struct Harness {
+    Artifact artifact;
+    int inputs = 0;   ///< floats per point
+    int outputs = 0;
+    std::string entry = "main";
+};
+Harness harness(const ir::Module& module, const Sources& sources, ir::FunctionId function,
+                const Target& target, Precision precision);
+
+/// Text that makes an artifact a whole shader for its judge: the version line, the stand-in
+/// prelude of the engine, an empty main. Line counts tell how far the artifact's lines move.
+struct Framed {
+    std::string text;
+    int first_line = 1;  ///< of the artifact within the text
+};
+Framed frame(const Artifact& artifact, const Target& target);
+
+}  // namespace lobe::emit

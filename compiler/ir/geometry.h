@@ -1,0 +1,72 @@
+// The standard structures of the language, as fields: `geometry` and `surface`.
+//
+// A function never receives a structure. It receives the fields that it uses, each as one input
+// (see `Input::origin`), so generated functions have the signatures a shader author would write.
+//
+// Geometry, all directions unit vectors that point away from the surface:
+//
+//   l, v, n   to the light, to the eye, the normal        x, y  the tangent frame
+//   h         normalize(l + v); 0 where l = -v
+//   cos_i     max(n.l, 0)    cos_o  max(n.v, 0)    cos_h  max(n.h, 0)    cos_d  max(l.h, 0)
+//   v_dot_l   v.l in [-1, 1]
+//   x_dot_l .. y_dot_h  in [-1, 1]
+//
+// Fields marked stable below cannot be named in a .lobe file. They carry the same quantity
+// without cancellation, and optimize/stabilize.cpp puts them where accuracy asks for them:
+//
+//   sin2_h            |n x h|^2                    = 1 - cos_h^2
+//   one_minus_cos_h   |n x h|^2 / (1 + n.h)        = 1 - cos_h
+//   one_minus_cos_d   |l - v|^2 / (4 (1 + l.h))    = 1 - cos_d
+//
+// Source: Lagrange's identity, and the half-angle formula for unit l and v.
+#pragma once
+
+#include "ir/graph.h"
+
+#include <optional>
+#include <string_view>
+
+namespace lobe::ir {
+
+enum class GeometryField : std::uint8_t {
+    l, v, n, x, y, h,
+    cos_i, cos_o, cos_h, cos_d, v_dot_l,
+    x_dot_l, y_dot_l, x_dot_v, y_dot_v, x_dot_h, y_dot_h,
+    sin2_h, one_minus_cos_h, one_minus_cos_d,
+};
+
+enum class SurfaceField : std::uint8_t {
+    base_color, metallic, specular, roughness, alpha, diffuse_color, f0,
+};
+
+/// What is known of a field without looking at any model.
+struct FieldFacts {
+    std::string_view name;
+    Type type{};
+    double low = 0;   ///< of every component
+    double high = 0;
+    bool nameable = true;  ///< false for the stable fields
+    std::string_view doc;
+};
+
+const FieldFacts& facts(GeometryField field);
+const FieldFacts& facts(SurfaceField field);
+
+/// The field with this name, if the language lets it be named.
+std::optional<GeometryField> find_geometry_field(std::string_view name);
+std::optional<SurfaceField> find_surface_field(std::string_view name);
+
+/// Where the vectors of a geometry are, in some graph.
+struct Frame {
+    ExprId l, v, n;
+    ExprId x, y;  ///< the tangent frame; may be invalid when nothing needs it
+};
+
+/// The expression that computes a field from the vectors. Guarded: l = -v gives h = 0.
+/// Cosines are saturated; `sin2_h`, `one_minus_*` are saturated.
+ExprId expand(Graph& graph, GeometryField field, const Frame& frame);
+
+/// True when a field needs the tangent frame.
+bool needs_tangents(GeometryField field);
+
+}  // namespace lobe::ir

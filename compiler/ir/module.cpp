@@ -1,0 +1,154 @@
+#include "ir/module.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace lobe::ir {
+
+std::optional<std::uint32_t> Function::find_input(Origin origin, std::uint32_t which) const
+{
+    for (std::uint32_t i = 0; i < inputs.size(); ++i)
+        if (inputs[i].origin == origin && inputs[i].which == which) return i;
+    return std::nullopt;
+}
+
+std::optional<FunctionId> Module::find(std::string_view function_name) const
+{
+    for (std::size_t i = 0; i < functions.size(); ++i)
+        if (functions[i].name == function_name) return FunctionId{i};
+    return std::nullopt;
+}
+
+std::vector<FunctionId> Module::roots() const
+{
+    std::vector<FunctionId> result;
+    for (const Model& model : models)
+        for (const ModelOutput& output : model.outputs) result.push_back(output.function);
+    if (!result.empty()) return result;
+
+    std::vector<bool> is_condition(functions.size());
+    for (const Effect& effect : effects) is_condition[effect.off_when.index] = true;
+    for (std::size_t i = 0; i < functions.size(); ++i)
+        if (owns(functions[i]) && !is_condition[i]) result.push_back(FunctionId{i});
+    return result;
+}
+
+std::vector<FunctionId> Module::reachable(const std::vector<FunctionId>& from) const
+{
+    std::vector<bool> wanted(functions.size());
+    for (const FunctionId id : from) wanted[id.index] = true;
+    // Callees come first, so one backward sweep reaches everything.
+    for (std::size_t i = functions.size(); i-- > 0;) {
+        if (!wanted[i]) continue;
+        const Function& function = functions[i];
+        const auto uses = use_counts(function.graph, function.result);
+        for (const ExprId id : function.graph.ids())
+            if (uses[id] > 0 && function.graph[id].op == Op::call)
+                wanted[function.graph[id].aux] = true;
+    }
+    std::vector<FunctionId> result;
+    for (std::size_t i = 0; i < functions.size(); ++i)
+        if (wanted[i]) result.push_back(FunctionId{i});
+    return result;
+}
+
+Function entry_point(const Module& module, FunctionId id)
+{
+    const Function& callee = module[id];
+    Function entry = callee;
+    entry.graph = {};
+    entry.inputs.clear();
+
+    const auto add_input = [&entry](Input input) {
+        const auto index = static_cast<std::uint32_t>(entry.inputs.size());
+        entry.inputs.push_back(input);
+        return entry.graph.input(index, input.type, input.span);
+    };
+    const auto add_vector = [&add_input](GeometryField field) {
+        const FieldFacts& known = facts(field);
+        return add_input({std::string{known.name}, known.type, Quantity::direction,
+                          {known.low, known.high}, Origin::geometry,
+                          static_cast<std::uint32_t>(field), {}});
+    };
+
+    bool geometry = false;
+    bool tangents = false;
+    for (const Input& input : callee.inputs)
+        if (input.origin == Origin::geometry) {
+            geometry = true;
+            tangents |= needs_tangents(static_cast<GeometryField>(input.which));
+        }
+    Frame frame;
+    if (geometry) {
+        frame.l = add_vector(GeometryField::l);
+        frame.v = add_vector(GeometryField::v);
+        frame.n = add_vector(GeometryField::n);
+    }
+    if (tangents) {
+        frame.x = add_vector(GeometryField::x);
+        frame.y = add_vector(GeometryField::y);
+    }
+
+    std::vector<ExprId> operands;
+    for (const Input& input : callee.inputs)
+        operands.push_back(input.origin == Origin::geometry
+                               ? expand(entry.graph, static_cast<GeometryField>(input.which), frame)
+                               : add_input(input));
+    entry.result = entry.graph.call(id, callee.type(), operands, callee.span);
+    return entry;
+}
+
+namespace {
+
+std::optional<std::string> verify_function(const Module& module, std::size_t index)
+{
+    const Function& function = module.functions[index];
+    const auto broken = [&](std::string what) {
+        return fmt::format("function {}: {}", function.name, what);
+    };
+    if (!function.result.valid() || function.result.index >= function.graph.size())
+        return broken("has no result");
+    for (const ExprId id : function.graph.ids()) {
+        const Expr& expr = function.graph[id];
+        if (expr.op == Op::input) {
+            if (expr.aux >= function.inputs.size()) return broken("reads an input it lacks");
+            if (function.inputs[expr.aux].type != expr.type)
+                return broken(fmt::format("reads input {} as another type",
+                                          function.inputs[expr.aux].name));
+        }
+        if (expr.op == Op::call) {
+            if (expr.aux >= index) return broken("calls a function that does not come before it");
+            const Function& callee = module.functions[expr.aux];
+            if (callee.inputs.size() != expr.count)
+                return broken(fmt::format("passes {} operands to {}, which takes {}", expr.count,
+                                          callee.name, callee.inputs.size()));
+            if (callee.type() != expr.type)
+                return broken(fmt::format("takes the result of {} as another type", callee.name));
+            for (std::size_t i = 0; i < callee.inputs.size(); ++i)
+                if (function.graph[function.graph.operands(id)[i]].type != callee.inputs[i].type)
+                    return broken(fmt::format("passes another type to {} of {}",
+                                              callee.inputs[i].name, callee.name));
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> verify(const Module& module)
+{
+    for (std::size_t i = 0; i < module.functions.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j)
+            if (module.functions[i].name == module.functions[j].name)
+                return fmt::format("two functions are named {}", module.functions[i].name);
+        if (auto broken = verify_function(module, i)) return broken;
+    }
+    for (const Model& model : module.models)
+        for (const ModelOutput& output : model.outputs)
+            if (output.function.index >= module.functions.size())
+                return fmt::format("model {} has an output without a function", model.name);
+    return std::nullopt;
+}
+
+}  // namespace lobe::ir

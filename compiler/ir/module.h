@@ -1,0 +1,157 @@
+// A checked module: what a .lobe file means, with everything it imported.
+//
+// The checker produces it, passes map it to another one, and emit, evaluate and verify read it.
+// There is no typed tree in between.
+//
+// Functions are ordered callees first, so a loop over them never meets an unknown callee, and
+// recursion cannot be expressed.
+#pragma once
+
+#include "ir/geometry.h"
+#include "ir/graph.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lobe::ir {
+
+/// What a value means; `Type` is only what it is made of. Colors and directions never mix.
+enum class Quantity : std::uint8_t { number, integer, boolean, vector, color, direction };
+
+/// Closed interval of every component. Infinite ends mean: unbounded.
+struct Range {
+    double low;
+    double high;
+    friend bool operator==(const Range&, const Range&) = default;
+};
+
+/// Where the value of an input comes from.
+enum class Origin : std::uint8_t {
+    argument,   ///< declared in the term's own parameter list
+    geometry,   ///< a field of the term's `geometry` argument; `which` is a GeometryField
+    surface,    ///< a field of the term's `surface` argument; `which` is a SurfaceField
+    parameter,  ///< a `param` of the module; `which` indexes Module::parameters
+};
+
+/// One input of a function. A call passes one operand per input of the callee, in order; for
+/// every origin but `argument` the operand is the caller's own input of the same origin and
+/// `which` (a term has at most one geometry and one surface, and cannot make another).
+struct Input {
+    std::string name;  ///< as written, or the field's or parameter's name
+    Type type{};
+    Quantity quantity{};
+    Range range{};
+    Origin origin{};
+    std::uint32_t which = 0;
+    Span span;
+};
+
+/// `/// slides 85`
+struct Citation {
+    std::string source;   ///< the name it was declared under
+    std::string locator;  ///< "85", "eq 33"
+};
+
+/// A term, a form of one, or one output of a model.
+struct Function {
+    enum class Kind : std::uint8_t { term, form, output };
+
+    std::string name;    ///< unique in the module: `D_GGX`, `F_Schlick_spherical_gaussian`,
+                         ///< `callisto_diffuse`
+    Kind kind{};
+    std::string module;  ///< the module that declared it
+    std::string doc;     ///< without the citations; may be empty
+    std::vector<Citation> citations;
+    Span span;           ///< of its name
+    std::vector<Input> inputs;
+    Graph graph;
+    ExprId result;
+    Quantity quantity{};         ///< of the result
+    std::optional<Range> declared_range;  ///< `-> float in [0, 2]`, proved by the checker
+    Range range{};                        ///< proved: declared, or inferred
+    FunctionId form_of;          ///< for a form: its term
+    std::string form_name;       ///< for a form: `spherical_gaussian`
+    std::string formula;         ///< the body as written, on one line, for doc comments
+
+    Type type() const { return graph[result].type; }
+
+    /// The index of the input with this origin, if the function has it.
+    std::optional<std::uint32_t> find_input(Origin origin, std::uint32_t which) const;
+};
+
+struct Parameter {
+    std::string name;
+    Type type{};
+    Quantity quantity{};
+    Range range{};
+    std::vector<double> default_value;  ///< one per component
+    std::string tier;                   ///< empty when none was given
+    std::string label;
+    std::string doc;
+    std::string module;
+    Span span;
+};
+
+/// `source slides = "…"`
+struct Source {
+    std::string name;
+    std::string text;
+    Span span;
+};
+
+/// `effect "Name" off when condition`: the condition is a function over parameters alone.
+struct Effect {
+    std::string name;
+    FunctionId off_when;  ///< boolean result; kind `term`, not emitted
+    std::string condition;  ///< as written
+    Span span;
+};
+
+struct ModelOutput {
+    std::string name;  ///< `diffuse`
+    FunctionId function;
+};
+
+struct Model {
+    std::string name;
+    std::string doc;
+    std::string module;
+    Span span;
+    std::vector<ModelOutput> outputs;
+};
+
+struct Module {
+    std::string name;
+    std::string path;  ///< of the file, as the user gave it
+    std::string doc;   ///< the comments before `module`
+    std::vector<Source> sources;
+    std::vector<std::string> tiers;
+    std::vector<Parameter> parameters;
+    std::vector<Function> functions;  ///< callees first; imported ones included
+    std::vector<Effect> effects;
+    std::vector<Model> models;        ///< this module's own
+
+    const Function& operator[](FunctionId id) const { return functions[id.index]; }
+    std::optional<FunctionId> find(std::string_view function_name) const;
+    /// Declared here rather than imported.
+    bool owns(const Function& function) const { return function.module == name; }
+    /// What callers of a library may call: the outputs of its models, or, when there is none,
+    /// its own terms and forms. Nothing else is emitted unless one of these calls it.
+    std::vector<FunctionId> roots() const;
+    /// `roots` and everything they call, callees first.
+    std::vector<FunctionId> reachable(const std::vector<FunctionId>& from) const;
+};
+
+/// An entry point: takes vectors, calls one function. Its inputs are the callee's, but with l, v
+/// and n (and x, y where the tangent frame is needed) in place of the geometry fields; its graph
+/// computes the fields from the vectors and ends in the call. It is part of no module and keeps
+/// the callee's name, documentation and ranges. `function` may have no geometry; then the entry
+/// only forwards.
+Function entry_point(const Module& module, FunctionId function);
+
+/// What was promised about a module; asserted after every pass in debug builds. Returns the
+/// first broken promise in words, or nothing.
+std::optional<std::string> verify(const Module& module);
+
+}  // namespace lobe::ir
