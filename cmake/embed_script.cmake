@@ -1,0 +1,15 @@
+# Run by lobe_embed: writes OUTPUT from FILES, every byte as an escape in short adjacent literals.
+set(text "// Written by cmake/embed_script.cmake.\n#include \"base/embedded.h\"\n\n#include <array>\n\nnamespace lobe {\nnamespace {\n\nconstexpr std::array entries{\n")
+foreach(file IN LISTS FILES)
+  file(READ ${file} content HEX)
+  file(RELATIVE_PATH name ${BASE} ${file})
+  # Bytes by value: no delimiter to collide with, no brackets or semicolons for CMake to eat.
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" escaped "${content}")
+  string(REGEX REPLACE "((\\\\x[0-9a-f][0-9a-f])(\\\\x[0-9a-f][0-9a-f])?(\\\\x[0-9a-f][0-9a-f])?(\\\\x[0-9a-f][0-9a-f])?(\\\\x[0-9a-f][0-9a-f])?(\\\\x[0-9a-f][0-9a-f])?(\\\\x[0-9a-f][0-9a-f])?(\\\\x[0-9a-f][0-9a-f])?)" "    \"\\1\"\n" lines "${escaped}")
+  string(APPEND text "    Embedded{\"${name}\", std::string_view{\n${lines}    \"\", ")
+  string(LENGTH "${content}" digits)
+  math(EXPR bytes "${digits} / 2")
+  string(APPEND text "${bytes}}},\n")
+endforeach()
+string(APPEND text "};\n\n}  // namespace\n\nstd::span<const Embedded> ${FUNCTION}()\n{\n    return entries;\n}\n\n}  // namespace lobe\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,18 @@
+// The commands of `lobec`, one file each. `add_*` declares a command; running it sets `status`.
+#pragma once
+
+#include "cli/terminal.h"
+
+#include <CLI/CLI.hpp>
+
+namespace lobe::cli {
+
+void add_build(CLI::App& app, const Terminal& terminal, int& status);
+void add_check(CLI::App& app, const Terminal& terminal, int& status);
+void add_format(CLI::App& app, const Terminal& terminal, int& status);
+void add_evaluate(CLI::App& app, const Terminal& terminal, int& status);
+void add_verify(CLI::App& app, const Terminal& terminal, int& status);
+void add_explain(CLI::App& app, const Terminal& terminal, int& status);
+void add_devices(CLI::App& app, const Terminal& terminal, int& status);
+
+}  // namespace lobe::cli

@@ -1,0 +1,57 @@
+// `lobec`: arguments in, one command run, an exit code out.
+#include "cli/commands.h"
+
+#include <cstdio>
+#include <exception>
+
+#include <fmt/format.h>
+
+int main(int argc, char** argv)
+{
+    using namespace lobe::cli;
+
+    CLI::App app{"lobec: a compiler for BRDF terms.\n"
+                 "One .lobe file becomes Unreal .ush, GLSL, ESSL and HLSL, each validated by real\n"
+                 "compilers, executed, and held against a CPU evaluator.",
+                 "lobec"};
+    app.set_version_flag("--version", "lobec " LOBE_VERSION);
+    app.require_subcommand(1);
+    app.fallthrough();
+    app.footer("Examples:\n"
+               "  lobec build models/callisto.lobe -o out\n"
+               "  lobec verify models --json result.json\n"
+               "  lobec explain E0501\n"
+               "`lobec COMMAND --help` shows each command with an example.\n"
+               "Exit codes: 0 success, 1 findings, 2 usage or unreadable input.");
+
+    Terminal terminal;
+    app.add_option("--color", terminal.color, "Color: auto (on a terminal), always, never")
+        ->check(CLI::IsMember({"auto", "always", "never"}))
+        ->capture_default_str();
+    app.add_flag("-q,--quiet", terminal.quiet, "No progress and no summary, only findings");
+
+    int status = success;
+    add_build(app, terminal, status);
+    add_check(app, terminal, status);
+    add_format(app, terminal, status);
+    add_evaluate(app, terminal, status);
+    add_verify(app, terminal, status);
+    add_explain(app, terminal, status);
+    add_devices(app, terminal, status);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        // CLI11 has its own exit codes; ours are a promise.
+        return app.exit(error) == 0 ? success : broken;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "error: {}\n", error.what());
+        return broken;
+    }
+    // Results on a full disk or a closed pipe are not results.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+        fmt::print(stderr, "error: cannot write to standard output\n");
+        return broken;
+    }
+    return status;
+}

@@ -1,0 +1,72 @@
+#include "cli/program.h"
+
+#include "cli/files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace lobe::cli {
+namespace fs = std::filesystem;
+
+namespace {
+
+// A source is text that a person wrote; the parser refuses more than this too (E0003).
+constexpr std::size_t largest_source = std::size_t{64} << 20;
+
+}  // namespace
+
+std::optional<std::vector<std::string>> expand_inputs(const Terminal& terminal,
+                                                      const std::vector<std::string>& inputs)
+{
+    std::vector<std::string> files;
+    for (const std::string& input : inputs) {
+        std::error_code error;
+        if (!fs::is_directory(input, error)) {
+            files.push_back(input);
+            continue;
+        }
+        std::vector<std::string> found;
+        for (const auto& entry : fs::directory_iterator{input, error})
+            if (entry.path().extension() == ".lobe") found.push_back(entry.path().generic_string());
+        if (found.empty()) {
+            fail(terminal, fmt::format("no .lobe file in {}", input));
+            return std::nullopt;
+        }
+        std::ranges::sort(found);
+        files.insert(files.end(), found.begin(), found.end());
+    }
+    return files;
+}
+
+Program load(const Terminal& terminal, const std::vector<std::string>& inputs)
+{
+    Program program;
+    const auto files = expand_inputs(terminal, inputs);
+    if (!files) {
+        program.status = broken;
+        return program;
+    }
+    for (const std::string& path : *files) {
+        auto read = read_file(path, largest_source);
+        if (!read.text) {
+            const auto source = program.sources.add(path, "");
+            program.diagnostics.report(
+                {.code = Code::file_unreadable,
+                 .message = fmt::format("cannot read `{}`: {}", path, read.why),
+                 .primary = {{source, 0, 0}, ""}});
+            program.status = broken;
+            continue;
+        }
+        const auto root = program.sources.add(path, std::move(*read.text));
+        const int errors = program.diagnostics.error_count();
+        auto module = front(program.sources, root, folder_loader(), program.diagnostics);
+        if (module) program.modules.push_back(std::move(*module));
+        if (program.diagnostics.error_count() > errors && program.status == success)
+            program.status = findings;
+    }
+    return program;
+}
+
+}  // namespace lobe::cli

@@ -1,0 +1,29 @@
+// From file names to modules: what build, check, verify and evaluate have in common.
+#pragma once
+
+#include "cli/terminal.h"
+#include "compile.h"
+
+#include <string>
+#include <vector>
+
+namespace lobe::cli {
+
+/// The .lobe files that arguments name: files as they are, folders as the .lobe files in them,
+/// sorted. Reports what is missing to `terminal` and returns nothing then.
+std::optional<std::vector<std::string>> expand_inputs(const Terminal& terminal,
+                                                      const std::vector<std::string>& inputs);
+
+/// Every module of one command, with the sources their spans point into.
+struct Program {
+    Sources sources;
+    Diagnostics diagnostics;
+    std::vector<ir::Module> modules;  ///< checked, in the order of the inputs
+    int status = success;             ///< what the command should exit with so far
+};
+
+/// Reads and checks the inputs. Diagnostics are collected, not yet printed; a file that cannot be
+/// read is E0001 and makes the status `broken`.
+Program load(const Terminal& terminal, const std::vector<std::string>& inputs);
+
+}  // namespace lobe::cli
