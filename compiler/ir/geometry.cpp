@@ -132,8 +132,11 @@ ExprId expand(Graph& graph, GeometryField field, const Frame& frame)
     case GeometryField::x_dot_h: return cosine(frame.x, field_of(GeometryField::h));
     case GeometryField::y_dot_h: return cosine(frame.y, field_of(GeometryField::h));
     case GeometryField::sin2_h: {
-        const ExprId sine = graph.apply(Op::cross, {frame.n, field_of(GeometryField::h)});
-        return saturate(dot(sine, sine));
+        // Where n.h <= 0 (h below the horizon, or no h at all) cos_h is 0, and this has to be 1.
+        const ExprId h = field_of(GeometryField::h);
+        const ExprId sine = graph.apply(Op::cross, {frame.n, h});
+        const ExprId above = graph.apply(Op::less, {graph.literal("0"), dot(frame.n, h)});
+        return graph.apply(Op::select, {above, saturate(dot(sine, sine)), one()});
     }
     case GeometryField::one_minus_cos_h: {
         const ExprId sin2 = field_of(GeometryField::sin2_h);

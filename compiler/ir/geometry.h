@@ -18,6 +18,8 @@
 //   one_minus_cos_h   |n x h|^2 / (1 + n.h)        = 1 - cos_h
 //   one_minus_cos_d   |l - v|^2 / (4 (1 + l.h))    = 1 - cos_d
 //
+// Where n.h <= 0, cos_h is 0 by definition, so sin2_h and one_minus_cos_h are 1 there.
+//
 // Source: Lagrange's identity, and the half-angle formula for unit l and v.
 #pragma once
 
