@@ -96,6 +96,7 @@ struct Comment {
     std::string text;
     Span span;
     bool doc = false;
+    bool blank_before = false;  ///< an empty line stands before it
 };
 
 /// `name: type` of a term or model.
@@ -109,6 +110,8 @@ struct Let {
     ExpressionId value;
     std::vector<Comment> comments;  ///< lines that stand before it
     Span span;
+    bool blank_before = false;
+    std::vector<Comment> trailing;  ///< `// …` on its last line
 };
 
 /// `= expression`, or `{ let … expression }`.
@@ -118,6 +121,8 @@ struct Body {
     bool block = false;
     std::vector<Comment> value_comments;  ///< lines before the value, in a block
     Span span;
+    bool value_blank_before = false;
+    std::vector<Comment> trailing;  ///< `// …` on its last line
 };
 
 // ---- items
@@ -170,6 +175,8 @@ struct Output {
     ExpressionId value;
     std::vector<Comment> comments;
     Span span;
+    bool blank_before = false;
+    std::vector<Comment> trailing;
 };
 /// `model name(parameters) { let …  output = … }`
 struct ModelItem {
@@ -186,7 +193,7 @@ struct ReservedItem {
 struct Item {
     std::vector<Comment> comments;  ///< the lines before it, docs among them
     int blank_lines_before = 0;     ///< 0, 1 (the formatter keeps at most one)
-    std::vector<Comment> trailing;  ///< `// …` on its last line
+    std::vector<Comment> trailing;  ///< `// …` on its last line; a term's are in its bodies
     std::variant<Import, SourceItem, TierItem, ParamItem, TermItem, EffectItem, ModelItem,
                  ReservedItem>
         node;
