@@ -34,6 +34,21 @@ int Terminal::width() const
     return size.ws_col;
 }
 
+void print(const Terminal& terminal, const Diagnostics& diagnostics, const Sources& sources)
+{
+    if (terminal.format == "json") {
+        fmt::print("{}", render_json(sources, diagnostics));
+    } else if (terminal.format == "sarif") {
+        fmt::print("{}", render_sarif(sources, diagnostics, LOBE_VERSION));
+    } else if (terminal.format == "short") {
+        fmt::print(stderr, "{}", render_short(sources, diagnostics));
+    } else {
+        fmt::print(stderr, "{}", render_text(sources, diagnostics, terminal.color_on_stderr()));
+        if (!diagnostics.empty() && !terminal.quiet)
+            fmt::print(stderr, "\n{}\n", render_count(diagnostics));
+    }
+}
+
 int fail(const Terminal& terminal, const std::string& message)
 {
     fmt::print(stderr, "{}: {}\n",
