@@ -50,10 +50,10 @@ struct Diagnostic {
     Code code{};
     std::string message;  ///< one lower-case sentence without a full stop; code in `backticks`
     Label primary;
-    std::vector<Label> secondary;    ///< in source order
-    std::vector<std::string> notes;  ///< facts the reader cannot see in the source
-    std::vector<std::string> helps;  ///< ways out that are not edits
-    std::optional<Fix> fix;
+    std::vector<Label> secondary = {};    ///< in source order
+    std::vector<std::string> notes = {};  ///< facts the reader cannot see in the source
+    std::vector<std::string> helps = {};  ///< ways out that are not edits
+    std::optional<Fix> fix = std::nullopt;
 };
 
 /// The sink that stages report to. Keeps the order of reporting; `sorted()` orders by place.
