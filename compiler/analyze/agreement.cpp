@@ -1,0 +1,198 @@
+#include "analyze/agreement.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace lobe::analyze {
+namespace {
+
+/// How far a result is from its interval, in widths of the float grid; for choosing an example.
+double distance(float value, float low, float high)
+{
+    if (std::isnan(value)) return std::numeric_limits<double>::infinity();
+    const double gap = value < low ? double{low} - value : double{value} - high;
+    return gap / std::max(std::abs(double{value < low ? low : high}), 0x1p-126);
+}
+
+bool accepts(const Allowed& allowed, std::size_t point, float value)
+{
+    return allowed.undefined[point] ||
+           (allowed.low[point] <= value && value <= allowed.high[point]);
+}
+
+double unit_in_last_place(double exact, evaluate::Precision precision)
+{
+    const bool half = precision == evaluate::Precision::float16;
+    const double least_normal = half ? 0x1p-14 : 0x1p-126;
+    const int digits = half ? 11 : 24;
+    const double magnitude = std::max(std::abs(exact), least_normal);
+    return std::ldexp(1.0, std::ilogb(magnitude) - digits + 1);
+}
+
+Witness witness(const Reference& reference, std::size_t point, int component, float result)
+{
+    const Allowed& allowed = reference.outputs[static_cast<std::size_t>(component)];
+    Witness out;
+    out.point = point;
+    out.component = component;
+    out.result = result;
+    out.exact = confirm(reference, point)[static_cast<std::size_t>(component)];
+    out.low = allowed.low[point];
+    out.high = allowed.high[point];
+    out.inputs = describe_inputs(reference, point);
+    out.kind = describe(reference.points.cases[point]);
+    return out;
+}
+
+/// The running maximum of one measure of error.
+struct Maximum {
+    double size = 0;
+    std::size_t point = 0;
+    int component = -1;
+    float result = 0;
+
+    void add(double error, std::size_t at, int k, float value)
+    {
+        if (!(error > size)) return;
+        *this = {error, at, k, value};
+    }
+
+    /// The error at the point, measured anew against the confirmed value.
+    template <class Measure>
+    WorstError confirmed(const Reference& reference, const Measure& measure) const
+    {
+        if (component < 0) return {};
+        WorstError out;
+        out.at = witness(reference, point, component, result);
+        out.size = measure(std::abs(out.at->result - out.at->exact), out.at->exact);
+        return out;
+    }
+};
+
+}  // namespace
+
+std::string_view name(Route route) { return route == Route::direct ? "direct" : "optimized"; }
+
+evaluate::Precision table_of(emit::Precision precision)
+{
+    return precision == emit::Precision::float16 ? evaluate::Precision::float16
+                                                 : evaluate::Precision::float32;
+}
+
+Agreement compare(const Reference& reference, std::span<const float> results)
+{
+    const std::size_t outputs = reference.outputs.size();
+    const std::size_t count = reference.points.size();
+    assert(results.size() == outputs * count);
+    const evaluate::Precision precision = reference.precision;
+    const double least_normal = precision == evaluate::Precision::float16 ? 0x1p-14 : 0x1p-126;
+    const auto absolute = [](double error, double) { return error; };
+    const auto relative = [](double error, double exact) { return error / std::abs(exact); };
+    const auto ulp = [precision](double error, double exact) {
+        return error / unit_in_last_place(exact, precision);
+    };
+
+    Agreement out;
+    out.points = count;
+    out.undefined = reference.undefined;
+    Maximum worst_absolute, worst_relative, worst_ulp, farthest;
+    for (std::size_t point = 0; point < count; ++point) {
+        bool outside = false, not_a_number = false, infinite = false;
+        for (std::size_t k = 0; k < outputs; ++k) {
+            const Allowed& allowed = reference.outputs[k];
+            if (allowed.undefined[point]) continue;
+            const float value = results[point * outputs + k];
+            const auto component = static_cast<int>(k);
+            not_a_number |= std::isnan(value);
+            infinite |= std::isinf(value);
+            if (!accepts(allowed, point, value)) {
+                outside = true;
+                farthest.add(distance(value, allowed.low[point], allowed.high[point]), point,
+                             component, value);
+            }
+            const double exact = allowed.exact[point];
+            if (!std::isfinite(value) || !std::isfinite(exact)) continue;
+            const double error = std::abs(value - exact);
+            worst_absolute.add(error, point, component, value);
+            worst_ulp.add(ulp(error, exact), point, component, value);
+            if (std::abs(exact) >= least_normal)
+                worst_relative.add(relative(error, exact), point, component, value);
+        }
+        out.outside += outside;
+        out.not_a_number += not_a_number;
+        out.infinite += infinite;
+    }
+    if (out.outside > 0)
+        out.example = witness(reference, farthest.point, farthest.component, farthest.result);
+    out.absolute = worst_absolute.confirmed(reference, absolute);
+    out.relative = worst_relative.confirmed(reference, relative);
+    out.ulp = worst_ulp.confirmed(reference, ulp);
+    return out;
+}
+
+std::size_t count_outside(const Reference& reference, std::span<const float> results)
+{
+    const std::size_t outputs = reference.outputs.size();
+    std::size_t outside = 0;
+    for (std::size_t point = 0; point < reference.points.size(); ++point)
+        for (std::size_t k = 0; k < outputs; ++k)
+            if (!accepts(reference.outputs[k], point, results[point * outputs + k])) {
+                ++outside;
+                break;
+            }
+    return outside;
+}
+
+Judged judge(std::string_view text, const emit::Target& target, std::string_view entry,
+             bool optimize)
+{
+    Judged out;
+    const auto refused = [&out](std::string who, verify::Verdict& verdict) {
+        out.judge = std::move(who);
+        out.messages = std::move(verdict.messages);
+        return out;
+    };
+    auto compiled =
+        verify::compile(text, dialect_of(target.language), verify::Stage::compute, entry);
+    if (!compiled.accepted) return refused("glslang", compiled);
+    out.direct = verify::forbid_contraction(compiled.spirv);
+    if (auto valid = verify::validate(out.direct); !valid.accepted)
+        return refused("spirv-val", valid);
+    if (optimize) {
+        auto optimized = verify::optimize(out.direct);
+        if (!optimized.accepted) return refused("spirv-opt", optimized);
+        out.optimized = std::move(optimized.spirv);
+        if (auto valid = verify::validate(out.optimized); !valid.accepted)
+            return refused("spirv-val after spirv-opt", valid);
+    }
+    out.accepted = true;
+    return out;
+}
+
+verify::Dialect dialect_of(emit::Language language)
+{
+    switch (language) {
+    case emit::Language::glsl: return verify::Dialect::glsl;
+    case emit::Language::essl: return verify::Dialect::essl;
+    case emit::Language::hlsl: return verify::Dialect::hlsl;
+    }
+    return verify::Dialect::glsl;
+}
+
+std::optional<std::string> execute(device::Device& device, const Reference& reference,
+                                   const emit::Harness& harness,
+                                   std::span<const std::uint32_t> spirv,
+                                   std::vector<float>& results)
+{
+    assert(static_cast<std::size_t>(harness.inputs) == reference.points.columns.size());
+    assert(static_cast<std::size_t>(harness.outputs) == reference.outputs.size());
+    // NaN where nothing is written: a shader that skips points is caught.
+    results.assign(reference.outputs.size() * reference.points.size(),
+                   std::numeric_limits<float>::quiet_NaN());
+    return device.run(spirv, harness.entry, reference.input, results,
+                      static_cast<std::uint32_t>(reference.points.size()));
+}
+
+}  // namespace lobe::analyze
