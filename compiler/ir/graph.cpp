@@ -173,6 +173,7 @@ ExprId Graph::intern(Op op, Type type, std::uint32_t aux, std::span<const ExprId
     const std::vector<ExprId> list(operands.begin(), operands.end());
     operands_.insert(operands_.end(), list.begin(), list.end());
     spans_.push_back(span);
+    names_.emplace_back();
     shared_.emplace(key, id);
     return id;
 }
@@ -207,6 +208,11 @@ ExprId Graph::call(FunctionId callee, Type type, std::span<const ExprId> argumen
     return intern(Op::call, type, callee.index, arguments, span);
 }
 
+void Graph::set_name(ExprId id, std::string_view name)
+{
+    if (names_[id.index].empty()) names_[id.index] = name;
+}
+
 ExprId Graph::copy(const Graph& from, ExprId id, std::span<const ExprId> operands)
 {
     const Expr expr = from[id];
@@ -216,7 +222,10 @@ ExprId Graph::copy(const Graph& from, ExprId id, std::span<const ExprId> operand
         return intern(Op::literal, Type::scalar, intern_literal(literal.text, literal.value), {},
                       span);
     }
-    return intern(expr.op, expr.type, expr.aux, operands, span);
+    const std::string name = from.names_[id.index];  // a copy: `from` may be this graph
+    const ExprId copied = intern(expr.op, expr.type, expr.aux, operands, span);
+    set_name(copied, name);
+    return copied;
 }
 
 bool Graph::is_literal(ExprId id, double value) const

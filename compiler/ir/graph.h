@@ -86,6 +86,10 @@ public:
     ExprId component(ExprId vector, int index, Span span = {});
     ExprId construct(Type type, std::span<const ExprId> scalars, Span span = {});
     ExprId call(FunctionId callee, Type type, std::span<const ExprId> arguments, Span span = {});
+    /// What the author calls an expression (`let x = ...`): a hint for who writes text, no part
+    /// of what it is. The first name wins; `copy` keeps it.
+    void set_name(ExprId id, std::string_view name);
+    const std::string& name_of(ExprId id) const { return names_[id.index]; }
     /// A copy of an expression of another graph (or this one) over new operands: what every
     /// rewriting pass does with what it leaves alone. Inputs and calls keep their aux.
     ExprId copy(const Graph& from, ExprId id, std::span<const ExprId> operands);
@@ -130,6 +134,7 @@ private:
     std::vector<Expr> exprs_;
     std::vector<ExprId> operands_;
     std::vector<Span> spans_;
+    std::vector<std::string> names_;
     std::vector<Literal> literals_;
     std::unordered_map<std::string, std::uint32_t> literal_index_;
     std::unordered_multimap<std::size_t, ExprId> shared_;
