@@ -59,9 +59,9 @@ inline constexpr std::string_view number_kinds =
 
 /// Why a table could not be evaluated.
 struct TableError {
-    std::string message;      ///< one lower-case sentence without a full stop
-    std::size_t line = 0;     ///< in the table's text, from 1; 0 when it is about no line
-    std::string column;       ///< the column's name; empty when it is about no column
+    std::string message;   ///< one lower-case sentence without a full stop
+    std::size_t line = 0;  ///< in the table's text, from 1; 0 when it is about no line
+    std::string column;    ///< the column's name; empty when it is about no column
     std::vector<std::string> hints;
 };
 
