@@ -38,15 +38,28 @@ struct Member {
     ExpressionId base;
     Identifier member;
 };
-enum class UnaryOperator { negate, logical_not };
+enum class UnaryOperator {
+    negate,
+    logical_not
+};
 struct Unary {
     UnaryOperator op{};
     ExpressionId operand;
 };
 enum class BinaryOperator {
-    add, subtract, multiply, divide, power,
-    less, less_equal, greater, greater_equal, equal, not_equal,
-    logical_and, logical_or,
+    add,
+    subtract,
+    multiply,
+    divide,
+    power,
+    less,
+    less_equal,
+    greater,
+    greater_equal,
+    equal,
+    not_equal,
+    logical_and,
+    logical_or,
 };
 /// `a / b else c` keeps the limit `c` here; every other operator has none.
 struct Binary {
@@ -192,7 +205,7 @@ struct ReservedItem {
 
 struct Item {
     std::vector<Comment> comments;  ///< the lines before it, docs among them
-    int blank_lines_before = 0;     ///< 0, 1 (the formatter keeps at most one)
+    int blank_lines_before = 0;     ///< between it and what stands before it, a comment too: 0, 1
     std::vector<Comment> trailing;  ///< `// …` on its last line; a term's are in its bodies
     std::variant<Import, SourceItem, TierItem, ParamItem, TermItem, EffectItem, ModelItem,
                  ReservedItem>
@@ -201,7 +214,7 @@ struct Item {
 };
 
 struct Tree {
-    std::uint32_t source = 0;  ///< index into Sources
+    std::uint32_t source = 0;     ///< index into Sources
     std::vector<Comment> header;  ///< comments before `module`
     std::optional<Identifier> module;
     std::vector<Item> items;

@@ -1,0 +1,497 @@
+// The rules for items: what stands between two declarations, and each kind of declaration.
+#include "syntax/parser.h"
+
+#include <fmt/format.h>
+
+namespace lobe::syntax {
+namespace {
+
+const std::vector<std::string>& item_keywords()
+{
+    static const std::vector<std::string> words{"import", "source", "tier",  "param",
+                                                "term",   "effect", "model", "packing",
+                                                "engine", "form",   "module"};
+    return words;
+}
+
+Diagnostic misplaced(const Span& span, std::string message)
+{
+    Diagnostic result;
+    result.code = Code::misplaced_item;
+    result.message = std::move(message);
+    result.primary = {span, ""};
+    return result;
+}
+
+}  // namespace
+
+/// module-line = "module" name
+void Parser::parse_module()
+{
+    tree_.header = take_comments();
+    if (at(TokenKind::end)) {
+        tree_.footer = std::move(tree_.header);
+        tree_.header.clear();
+        return;
+    }
+    if (at_word("module")) {
+        advance();
+        const Identifier name = expect_identifier("the name of the module");
+        if (!name.text.empty()) tree_.module = name;
+        if (failed_) recover();
+        return;
+    }
+    if (at(TokenKind::unknown)) {
+        recover();
+        return;
+    }
+    // A misspelt `module` is one mistake, not two.
+    const bool misspelt =
+        at(TokenKind::identifier) && !at_item() && nearest(text(current()), {"module"}).has_value();
+    Diagnostic result = misplaced(span(current()), "a file starts with `module` and its name");
+    result.primary.text = "`module` stands before this";
+    if (misspelt) result.fix = Fix{span(current()), "module", "write `module`"};
+    report(std::move(result));
+    if (!misspelt) return;
+    advance();
+    tree_.module = expect_identifier("the name of the module");
+    if (failed_) recover();
+}
+
+void Parser::parse_item()
+{
+    const std::size_t start = position_;
+    Item item;
+    item.comments = take_comments();
+    item.blank_lines_before = current().blank_before ? 1 : 0;
+    const std::uint32_t begin = current().begin;
+
+    std::string keyword = at(TokenKind::identifier) ? std::string{text(current())} : "";
+    if (!keyword.empty() && !starts_item(position_) && current().first_on_line) {
+        const auto meant = nearest(keyword, item_keywords());
+        Diagnostic result;
+        result.code = Code::unexpected_token;
+        result.primary = {span(current()), ""};
+        if (meant && *meant != keyword) {
+            // Taken for what was meant, so that its name is known to the rest of the program.
+            result.message = fmt::format("unknown item `{}`; did you mean `{}`?", keyword, *meant);
+            result.fix = Fix{span(current()), *meant, fmt::format("write `{}`", *meant)};
+            report(std::move(result));
+            keyword = *meant;
+        } else if (!meant) {
+            result.message = fmt::format("expected a declaration, found {}", words(current()));
+            result.helps.emplace_back(
+                "declarations start with `import`, `source`, `tier`, `param`, `term`, `effect` "
+                "or `model`");
+            fail(std::move(result));
+        }
+    } else if (keyword.empty() || !current().first_on_line) {
+        Diagnostic result;
+        result.code = Code::unexpected_token;
+        result.message =
+            position_ > 0 && !current().first_on_line
+                ? fmt::format("expected the end of the declaration, found {}", words(current()))
+                : fmt::format("expected a declaration, found {}", words(current()));
+        result.primary = {span(current()), ""};
+        fail(std::move(result));
+    }
+
+    auto node = failed_ ? std::nullopt : parse_item_node(keyword, item);
+    take_interior(item.comments);
+    item.trailing = take_trailing();
+    if (failed_) {
+        failed_ = false;
+        if (position_ == start) advance();
+        recover();
+    }
+    if (!node) return;
+    item.span = span_from(begin);
+    item.node = *std::move(node);
+    tree_.items.push_back(std::move(item));
+}
+
+/// The item behind a keyword, or nothing if not even its name could be read.
+std::optional<Parser::ItemNode> Parser::parse_item_node(std::string_view keyword, Item& item)
+{
+    const auto named = [](auto node) {
+        return node.name.text.empty() ? std::nullopt : std::optional<ItemNode>{std::move(node)};
+    };
+    const Token word = advance();
+    if (keyword != "import" && !first_not_import_) first_not_import_ = span(word);
+
+    if (keyword == "import") {
+        if (first_not_import_) {
+            Diagnostic result = misplaced(span(word), "imports stand before other declarations");
+            result.secondary = {{*first_not_import_, "the first declaration"}};
+            report(std::move(result));
+        }
+        return parse_import();
+    }
+    if (keyword == "source") return named(parse_source());
+    if (keyword == "tier") return parse_tier();
+    if (keyword == "param") return named(parse_param());
+    if (keyword == "term") return named(parse_term(item));
+    if (keyword == "effect") return parse_effect();
+    if (keyword == "model") return named(parse_model(item));
+    if (keyword == "packing" || keyword == "engine") return parse_reserved(word);
+
+    if (keyword == "form") {
+        Diagnostic result = misplaced(span(word), "this form belongs to no term");
+        result.helps.emplace_back("forms stand directly after the term that they compute");
+        fail(std::move(result));
+    } else {
+        Diagnostic result = misplaced(span(word), "a file has one `module` line");
+        if (tree_.module) result.secondary = {{tree_.module->span, "the module has this name"}};
+        fail(std::move(result));
+    }
+    return std::nullopt;
+}
+
+/// import = "import" name "{" name { "," name } "}"
+Import Parser::parse_import()
+{
+    Import result;
+    result.module = expect_identifier("the name of a module");
+    const Token open = current();
+    if (!expect(TokenKind::left_brace, "`{` and the names to import")) return result;
+    do result.names.push_back(expect_identifier("a name to import"));
+    while (accept(TokenKind::comma));
+    expect_closing(TokenKind::right_brace, open, "`,` or `}`");
+    if (failed_) std::erase_if(result.names, [](const auto& name) { return name.text.empty(); });
+    return result;
+}
+
+std::string Parser::parse_string(std::string_view what)
+{
+    if (!at(TokenKind::string)) {
+        fail_expected(what);
+        return {};
+    }
+    return unquote(text(advance()));
+}
+
+/// source = "source" name "=" text
+SourceItem Parser::parse_source()
+{
+    SourceItem result;
+    result.name = expect_identifier("the name of the source");
+    expect(TokenKind::assign, "`=` and the title in double quotes");
+    result.text = parse_string("the title in double quotes");
+    return result;
+}
+
+/// tier = "tier" name { "," name }
+TierItem Parser::parse_tier()
+{
+    TierItem result;
+    do {
+        Identifier name = expect_identifier("the name of a tier");
+        if (!name.text.empty()) result.names.push_back(std::move(name));
+    } while (accept(TokenKind::comma));
+    return result;
+}
+
+/// param = "param" name ":" type [ "=" default ] [ tier ] [ text ]
+/// The tier stands on the line on which the default ends: a word on the next line starts an item.
+ParamItem Parser::parse_param()
+{
+    ParamItem result;
+    result.name = expect_identifier("the name of the parameter");
+    expect(TokenKind::colon, "`:` and a type");
+    result.type = parse_type();
+    expect(TokenKind::assign, "`=` and the default");
+    parse_default(result);
+    if (at(TokenKind::identifier) && !current().first_on_line)
+        result.tier = expect_identifier("a tier");
+    if (at(TokenKind::string)) result.label = parse_string("a label");
+    return result;
+}
+
+/// default = expression | "(" expression "," expression { "," expression } ")"
+void Parser::parse_default(ParamItem& param)
+{
+    const Token first = current();
+    // A list if a comma stands directly inside the first parentheses.
+    bool list = false;
+    int depth = 0;
+    for (std::size_t i = position_; at(TokenKind::left_parenthesis); ++i) {
+        const TokenKind kind = tokens_.all[i].kind;
+        if (kind == TokenKind::left_parenthesis) ++depth;
+        if (kind == TokenKind::right_parenthesis) --depth;
+        list = kind == TokenKind::comma && depth == 1;
+        if (list || depth == 0 || kind == TokenKind::end) break;
+    }
+    if (list) {
+        advance();
+        do param.default_value.push_back(parse_expression());
+        while (accept(TokenKind::comma));
+        expect_closing(TokenKind::right_parenthesis, first, "`,` or `)`");
+    } else {
+        param.default_value.push_back(parse_expression());
+    }
+    param.default_span = span_from(first.begin);
+}
+
+/// term = "term" name parameters [ "->" type ] body { form }
+TermItem Parser::parse_term(Item& item)
+{
+    TermItem result;
+    result.name = expect_identifier("the name of the term");
+    result.parameters = parse_parameters();
+    if (accept(TokenKind::arrow)) result.result = parse_type();
+    result.body = parse_body();
+    take_interior(item.comments);
+    result.body.trailing = take_trailing();
+    if (failed_) {
+        recover();
+        if (!at_word("form")) return result;
+    }
+    while (at_word("form") && ahead(1).kind == TokenKind::identifier) {
+        result.forms.push_back(parse_form());
+        if (failed_) recover();
+    }
+    return result;
+}
+
+/// form = "form" name body
+Form Parser::parse_form()
+{
+    Form result;
+    result.comments = take_comments();
+    const Token keyword = advance();
+    result.name = expect_identifier("the name of the form");
+    result.body = parse_body();
+    take_interior(result.comments);
+    result.body.trailing = take_trailing();
+    result.span = span_from(keyword.begin);
+    return result;
+}
+
+/// effect = "effect" text "off" "when" expression
+EffectItem Parser::parse_effect()
+{
+    EffectItem result;
+    result.name_span = span(current());
+    result.name = parse_string("the name of the effect in double quotes");
+    expect_word("off", "`off when` and a condition");
+    expect_word("when", "`when` and a condition");
+    result.off_when = parse_expression();
+    if (at(TokenKind::assign)) {
+        Diagnostic equals;
+        equals.code = Code::unexpected_token;
+        equals.message = "`=` gives a name a value; it does not compare";
+        equals.primary = {span(current()), ""};
+        equals.fix = Fix{span(current()), "==", "write `==`"};
+        fail(std::move(equals));
+    }
+    return result;
+}
+
+/// model = "model" name parameters "{" { let } { name "=" expression } "}"
+ModelItem Parser::parse_model(Item& item)
+{
+    ModelItem result;
+    result.name = expect_identifier("the name of the model");
+    result.parameters = parse_parameters();
+    const Token open = current();
+    if (!expect(TokenKind::left_brace, "`{` and the outputs of the model")) return result;
+
+    while (!at(TokenKind::right_brace) && !at(TokenKind::end) && !at_item()) {
+        if (at(TokenKind::word_let)) {
+            if (!result.outputs.empty()) {
+                Diagnostic late = misplaced(span(current()), "`let` stands before the outputs");
+                late.secondary = {{result.outputs.front().name.span, "the first output"}};
+                report(std::move(late));
+            }
+            result.lets.push_back(parse_let());
+        } else if (at(TokenKind::identifier)) {
+            result.outputs.push_back(parse_output());
+        } else {
+            fail_expected("an output `name = value`, or `}`");
+        }
+        if (failed_) recover_in_block(true);
+    }
+    std::vector<Comment> late = take_comments();
+    auto& last = !result.outputs.empty() ? result.outputs.back().comments
+                 : !result.lets.empty()  ? result.lets.back().comments
+                                         : item.comments;
+    for (Comment& comment : late) {
+        if (comment.doc) report_dangling(comment);
+        last.push_back(std::move(comment));
+    }
+    expect_closing(TokenKind::right_brace, open, "an output `name = value`, or `}`");
+    return result;
+}
+
+/// packing and engine blocks: whatever they hold, up to the brace that closes them.
+ReservedItem Parser::parse_reserved(const Token& keyword)
+{
+    ReservedItem result{{std::string{text(keyword)}, span(keyword)}};
+    Diagnostic reserved;
+    reserved.code = Code::reserved_block;
+    reserved.message = fmt::format("`{}` blocks are not compiled by this edition", text(keyword));
+    reserved.primary = {span(keyword), ""};
+    reserved.helps.emplace_back("the word is reserved for a later one; remove the block");
+    report(std::move(reserved));
+
+    skipping_ = true;
+    while (!at(TokenKind::left_brace) && !at(TokenKind::end) && !at_item()) advance();
+    const Token open = current();
+    for (int depth = 0; at(TokenKind::left_brace) || (depth > 0 && !at(TokenKind::end));) {
+        if (at(TokenKind::left_brace)) ++depth;
+        if (at(TokenKind::right_brace)) --depth;
+        advance();
+        if (depth == 0) break;
+        if (at(TokenKind::end)) expect_closing(TokenKind::right_brace, open, "`}`");
+    }
+    take_comments();
+    skipping_ = false;
+    return result;
+}
+
+// ---- pieces of items
+
+/// parameters = "(" [ name ":" type { "," name ":" type } ] ")"
+std::vector<ParameterClause> Parser::parse_parameters()
+{
+    std::vector<ParameterClause> result;
+    const Token open = current();
+    if (!expect(TokenKind::left_parenthesis, "`(` and the parameters")) return result;
+    while (!failed_ && !at(TokenKind::right_parenthesis)) {
+        ParameterClause parameter;
+        parameter.name = expect_identifier("the name of a parameter");
+        expect(TokenKind::colon, "`:` and a type");
+        parameter.type = parse_type();
+        result.push_back(std::move(parameter));
+        if (!accept(TokenKind::comma)) break;
+        if (at(TokenKind::right_parenthesis)) fail_expected("a parameter");
+    }
+    expect_closing(TokenKind::right_parenthesis, open,
+                   result.empty() ? "a parameter or `)`" : "`,` or `)`");
+    return result;
+}
+
+/// type = name [ "in" "[" expression "," expression "]" ]
+TypeClause Parser::parse_type()
+{
+    TypeClause result;
+    const std::uint32_t begin = current().begin;
+    result.name = expect_identifier("a type");
+    if (at_word("in")) {
+        advance();
+        RangeClause range;
+        const Token open = current();
+        expect(TokenKind::left_bracket, "`[` and the ends of the range");
+        range.low = parse_expression();
+        expect(TokenKind::comma, "`,` and the upper end of the range");
+        range.high = parse_expression();
+        expect_closing(TokenKind::right_bracket, open, "`]`");
+        range.span = span_from(open.begin);
+        result.range = range;
+    }
+    result.span = span_from(begin);
+    return result;
+}
+
+/// body = "=" expression | "{" { let } expression "}"
+Body Parser::parse_body()
+{
+    Body result;
+    const std::uint32_t begin = current().begin;
+    if (at(TokenKind::left_brace)) {
+        parse_block(result);
+    } else {
+        expect(TokenKind::assign, "`=` or `{` and the value");
+        result.value = parse_expression();
+    }
+    result.span = span_from(begin);
+    return result;
+}
+
+void Parser::parse_block(Body& body)
+{
+    body.block = true;
+    const Token open = advance();
+    while (at(TokenKind::word_let)) {
+        body.lets.push_back(parse_let());
+        if (failed_) recover_in_block(false);
+    }
+    body.value_comments = take_comments();
+    body.value_blank_before = current().blank_before;
+    if (at(TokenKind::right_brace)) {
+        Diagnostic result;
+        result.code = Code::unexpected_token;
+        result.message = "this block has no value";
+        result.primary = {span(current()), "expected an expression before this"};
+        if (!body.lets.empty())
+            result.helps.emplace_back(
+                "the last line of a block is its value; a line that starts with an operator "
+                "continues the one before it, so put a negative value in parentheses");
+        report(std::move(result));
+        body.value = poison();
+        advance();
+        return;
+    }
+    const Token first = current();
+    body.value = parse_expression();
+    if (at(TokenKind::assign) && std::holds_alternative<Name>(tree_[body.value].node)) {
+        Diagnostic result;
+        result.code = Code::unexpected_token;
+        result.message = "a name in a block is declared with `let`";
+        result.primary = {span(first), ""};
+        result.fix = Fix{{index_, first.begin, first.begin}, "let ", "declare it"};
+        fail(std::move(result));
+    } else if (at(TokenKind::word_let)) {
+        Diagnostic result;
+        result.code = Code::misplaced_item;
+        result.message = "`let` stands before the value of a block";
+        result.primary = {span(current()), ""};
+        result.secondary = {{outer(body.value), "the value"}};
+        fail(std::move(result));
+    }
+    if (failed_) {
+        body.value = poison();
+        for (recover_in_block(false); at(TokenKind::word_let); recover_in_block(false))
+            body.lets.push_back(parse_let());
+        accept(TokenKind::right_brace);
+        return;
+    }
+    for (Comment& comment : take_comments()) {
+        if (comment.doc) report_dangling(comment);
+        body.value_comments.push_back(std::move(comment));
+    }
+    expect_closing(TokenKind::right_brace, open, "an operator or `}`");
+}
+
+/// let = "let" name "=" expression
+Let Parser::parse_let()
+{
+    Let result;
+    result.comments = take_comments();
+    result.blank_before = current().blank_before;
+    const Token keyword = advance();
+    result.name = expect_identifier("a name");
+    expect(TokenKind::assign, "`=` and a value");
+    result.value = parse_expression();
+    take_interior(result.comments);
+    result.trailing = take_trailing();
+    result.span = span_from(keyword.begin);
+    return result;
+}
+
+Output Parser::parse_output()
+{
+    Output result;
+    result.comments = take_comments();
+    result.blank_before = current().blank_before;
+    const std::uint32_t begin = current().begin;
+    result.name = expect_identifier("the name of an output");
+    expect(TokenKind::assign, "`=` and the value of the output");
+    result.value = parse_expression();
+    take_interior(result.comments);
+    result.trailing = take_trailing();
+    result.span = span_from(begin);
+    return result;
+}
+
+}  // namespace lobe::syntax
