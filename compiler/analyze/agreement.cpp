@@ -145,42 +145,6 @@ std::size_t count_outside(const Reference& reference, std::span<const float> res
     return outside;
 }
 
-Judged judge(std::string_view text, const emit::Target& target, std::string_view entry,
-             bool optimize)
-{
-    Judged out;
-    const auto refused = [&out](std::string who, verify::Verdict& verdict) {
-        out.judge = std::move(who);
-        out.messages = std::move(verdict.messages);
-        return out;
-    };
-    auto compiled =
-        verify::compile(text, dialect_of(target.language), verify::Stage::compute, entry);
-    if (!compiled.accepted) return refused("glslang", compiled);
-    out.direct = verify::forbid_contraction(compiled.spirv);
-    if (auto valid = verify::validate(out.direct); !valid.accepted)
-        return refused("spirv-val", valid);
-    if (optimize) {
-        auto optimized = verify::optimize(out.direct);
-        if (!optimized.accepted) return refused("spirv-opt", optimized);
-        out.optimized = std::move(optimized.spirv);
-        if (auto valid = verify::validate(out.optimized); !valid.accepted)
-            return refused("spirv-val after spirv-opt", valid);
-    }
-    out.accepted = true;
-    return out;
-}
-
-verify::Dialect dialect_of(emit::Language language)
-{
-    switch (language) {
-    case emit::Language::glsl: return verify::Dialect::glsl;
-    case emit::Language::essl: return verify::Dialect::essl;
-    case emit::Language::hlsl: return verify::Dialect::hlsl;
-    }
-    return verify::Dialect::glsl;
-}
-
 std::optional<std::string> execute(device::Device& device, const Reference& reference,
                                    const emit::Harness& harness,
                                    std::span<const std::uint32_t> spirv,

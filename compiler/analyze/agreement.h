@@ -1,14 +1,12 @@
 // Does what a device computed agree with what the function means?
 //
-// The trail of one function on one target: the harness text through the judges, NoContraction on
-// every operation, then the device, before and after the optimizer. Every result is held against
-// the acceptance interval of its own inputs.
+// Results of a device, held against the acceptance interval of their own inputs: that is
+// conformance. How far they are from the exact value is quality, measured beside it.
 #pragma once
 
 #include "analyze/reference.h"
 #include "device/device.h"
 #include "emit/emit.h"
-#include "verify/judge.h"
 
 #include <cstdint>
 #include <optional>
@@ -64,27 +62,11 @@ Agreement compare(const Reference& reference, std::span<const float> results);
 /// Only the count of outside points, and nothing else of `compare`: for mutants.
 std::size_t count_outside(const Reference& reference, std::span<const float> results);
 
-/// A harness that the judges have seen.
-struct Judged {
-    bool accepted = false;
-    std::string judge;                      ///< who refused: `glslang`, `spirv-val`, `spirv-opt`
-    std::vector<verify::Message> messages;  ///< verbatim, of the one who refused
-    std::vector<std::uint32_t> direct;      ///< to run, NoContraction everywhere
-    std::vector<std::uint32_t> optimized;
-};
-
-/// Compiles, validates, decorates and, if `optimize` says so, optimizes and validates again.
-Judged judge(std::string_view text, const emit::Target& target, std::string_view entry,
-             bool optimize = true);
-
 /// Runs SPIR-V over the reference's points. Why it failed, or nothing; `results` are resized.
 std::optional<std::string> execute(device::Device& device, const Reference& reference,
                                    const emit::Harness& harness,
                                    std::span<const std::uint32_t> spirv,
                                    std::vector<float>& results);
-
-/// The front end that reads a target's language.
-verify::Dialect dialect_of(emit::Language language);
 
 /// The precision that emit speaks of, and the table that evaluate reads for it.
 evaluate::Precision table_of(emit::Precision precision);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "analyze/agreement.h"
+#include "analyze/judgement.h"
 #include "base/diagnostic.h"
 #include "emit/emit.h"
 #include "ir/module.h"
@@ -32,37 +33,24 @@ struct VerifyOptions {
     std::function<void(const Progress&)> progress;  ///< from any thread, one call at a time
 };
 
-/// One artifact before one judge.
-struct Judgement {
-    std::string artifact;  ///< its path
-    std::string target;
-    std::string judge;  ///< `glslang`, `spirv-val`, `spirv-opt`, `cross to hlsl50`, …
-    bool accepted = false;
-    std::vector<verify::Message> messages;  ///< verbatim; lines are the artifact's
-};
-
 /// One function on one target in one precision.
 struct Row {
     std::string term;
     std::string target;
     emit::Precision precision{};
-    std::string refused_by;                 ///< the judge that refused the harness; empty: none
-    std::vector<verify::Message> messages;  ///< of that judge, verbatim
-    std::string failure;                    ///< why the device could not run it; empty: it ran
+    std::vector<Judgement> judgements;  ///< of its harness
+    std::string failure;                ///< why the device could not run it; empty: it could
     bool executed = false;
     Agreement direct;     ///< as the front end made it
     Agreement optimized;  ///< after spirv-opt -O
     double judge_seconds = 0;
     double run_seconds = 0;
 
-    bool ok() const
-    {
-        return refused_by.empty() && failure.empty() && direct.agrees() && optimized.agrees();
-    }
+    bool ok() const;
 };
 
 struct Verification {
-    std::vector<Judgement> judgements;  ///< by target, artifact, judge
+    std::vector<Judgement> judgements;  ///< of the files: by target, file, judge
     std::vector<Row> rows;              ///< by term, target, precision
     std::string device;                 ///< name and driver; empty when nothing was executed
     std::string no_device;           ///< why nothing was executed; empty: it was, or was not asked
@@ -82,8 +70,7 @@ Verification verify(const ir::Module& module, const Sources& sources, const Veri
 
 /// What the judges said against the artifacts and harnesses, as diagnostics (E0701) at the place
 /// in the .lobe file that the refused line was written for.
-Diagnostics complaints(const Verification& verification, const ir::Module& module,
-                       const Sources& sources);
+Diagnostics complaints(const Verification& verification, const ir::Module& module);
 
 /// The functions that `verify` checks: the module's own, but not the conditions of effects.
 std::vector<ir::FunctionId> checked_functions(const ir::Module& module);

@@ -1,0 +1,336 @@
+#include "analyze/verify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace lobe::analyze {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A function in one precision, and the rows that are judged against its reference.
+struct Subject {
+    enum class State {
+        waiting,
+        preparing,
+        ready
+    };
+
+    ir::FunctionId function;
+    emit::Precision precision{};
+    std::vector<std::size_t> rows;  ///< indices into Verification::rows
+    State state = State::waiting;
+    std::size_t taken = 0;     ///< of `rows`
+    std::size_t finished = 0;  ///< of `rows`
+    std::optional<Reference> reference;
+};
+
+struct File {
+    const emit::Target* target;
+    emit::Artifact artifact;
+    std::vector<Judgement> judgements;
+};
+
+/// What there is to do, handed out to workers one job at a time. Rows of a ready subject come
+/// first, then the reference of the next subject, so that few references are alive at once.
+class Schedule {
+public:
+    struct Job {
+        enum class Kind {
+            judge_file,
+            prepare,
+            run_row
+        } kind{};
+        std::size_t index = 0;  ///< of the file or the subject
+        std::size_t row = 0;
+    };
+
+    Schedule(std::vector<Subject>& subjects, std::size_t files, std::size_t total,
+             const std::function<void(const Progress&)>& progress)
+        : subjects_(subjects), files_(files), total_(total), progress_(progress)
+    {
+    }
+
+    /// The next job; waits until there is one. Nothing when all is handed out.
+    std::optional<Job> take()
+    {
+        std::unique_lock lock{mutex_};
+        for (;;) {
+            if (next_file_ < files_) return Job{Job::Kind::judge_file, next_file_++, 0};
+            bool all_taken = true;
+            for (std::size_t i = 0; i < subjects_.size(); ++i) {
+                Subject& subject = subjects_[i];
+                if (subject.taken == subject.rows.size()) continue;
+                all_taken = false;
+                if (subject.state == Subject::State::ready)
+                    return Job{Job::Kind::run_row, i, subject.rows[subject.taken++]};
+            }
+            if (all_taken) return std::nullopt;
+            for (std::size_t i = 0; i < subjects_.size(); ++i)
+                if (subjects_[i].state == Subject::State::waiting) {
+                    subjects_[i].state = Subject::State::preparing;
+                    return Job{Job::Kind::prepare, i, 0};
+                }
+            changed_.wait(lock);
+        }
+    }
+
+    void finish(const Job& job, std::string_view what)
+    {
+        const std::lock_guard lock{mutex_};
+        if (job.kind == Job::Kind::prepare) {
+            subjects_[job.index].state = Subject::State::ready;
+        } else {
+            ++done_;
+            if (progress_) progress_({done_, total_, what});
+        }
+        if (job.kind == Job::Kind::run_row) {
+            Subject& subject = subjects_[job.index];
+            if (++subject.finished == subject.rows.size()) subject.reference.reset();
+        }
+        changed_.notify_all();
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<Subject>& subjects_;
+    std::size_t files_;
+    std::size_t next_file_ = 0;
+    std::size_t done_ = 0;
+    std::size_t total_;
+    const std::function<void(const Progress&)>& progress_;
+};
+
+class Verifier {
+public:
+    Verifier(const ir::Module& module, const Sources& sources, const VerifyOptions& options)
+        : module_(module), sources_(sources), options_(options)
+    {
+        targets_ = options.targets;
+        if (targets_.empty())
+            for (const emit::Target& target : emit::targets()) targets_.push_back(&target);
+    }
+
+    Verification run()
+    {
+        const auto start = Clock::now();
+        std::optional<device::Device> first;
+        if (options_.execute) first = device::Device::open(options_.device, out_.no_device);
+        if (first) out_.device = fmt::format("{}, {}", first->facts().name, first->facts().driver);
+        execute_ = first.has_value();
+        plan(first ? &first->facts() : nullptr);
+
+        Schedule schedule{subjects_, files_.size(), files_.size() + out_.rows.size(),
+                          options_.progress};
+        const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+        const unsigned workers = options_.jobs > 0 ? options_.jobs : cores;
+        std::vector<std::thread> threads;
+        for (unsigned i = 1; i < workers; ++i)
+            threads.emplace_back([this, &schedule] { work(schedule, open_another()); });
+        work(schedule, std::move(first));
+        for (std::thread& thread : threads) thread.join();
+
+        for (File& file : files_)
+            std::ranges::move(file.judgements, std::back_inserter(out_.judgements));
+        out_.seconds = seconds_since(start);
+        return std::move(out_);
+    }
+
+private:
+    std::optional<device::Device> open_another() const
+    {
+        std::string ignored;
+        if (!execute_) return std::nullopt;
+        return device::Device::open(options_.device, ignored);
+    }
+
+    bool wants(const emit::Target& target, emit::Precision precision,
+               const device::DeviceFacts* facts)
+    {
+        if (precision == emit::Precision::float32) return true;
+        if (target.name != "glsl450") return false;  // the one target that emits half precision
+        if (facts == nullptr || facts->float16) return true;
+        const std::string note = "float16: the device does not compute in it";
+        if (std::ranges::find(out_.notes, note) == out_.notes.end()) out_.notes.push_back(note);
+        return false;
+    }
+
+    void plan(const device::DeviceFacts* facts)
+    {
+        for (const emit::Target* target : targets_)
+            for (emit::Artifact& artifact : emit::emit(module_, sources_, *target))
+                files_.push_back({target, std::move(artifact), {}});
+        for (const ir::FunctionId function : checked_functions(module_)) {
+            const std::size_t first = subjects_.size();
+            for (const emit::Precision precision : options_.precisions)
+                subjects_.push_back({function, precision, {}, {}, 0, 0, {}});
+            for (const emit::Target* target : targets_)
+                for (std::size_t i = first; i < subjects_.size(); ++i) {
+                    if (!wants(*target, subjects_[i].precision, facts)) continue;
+                    subjects_[i].rows.push_back(out_.rows.size());
+                    Row& row = out_.rows.emplace_back();
+                    row.term = module_[function].name;
+                    row.target = target->name;
+                    row.precision = subjects_[i].precision;
+                }
+        }
+        std::erase_if(subjects_, [](const Subject& subject) { return subject.rows.empty(); });
+    }
+
+    void work(Schedule& schedule, std::optional<device::Device> device)
+    {
+        while (const auto job = schedule.take()) {
+            std::string what;
+            switch (job->kind) {
+            case Schedule::Job::Kind::judge_file: {
+                File& file = files_[job->index];
+                file.judgements = judge_file(file.artifact, *file.target);
+                what = file.artifact.path;
+                break;
+            }
+            case Schedule::Job::Kind::prepare: prepare(subjects_[job->index]); break;
+            case Schedule::Job::Kind::run_row: {
+                Row& row = out_.rows[job->row];
+                run_row(row, subjects_[job->index], device);
+                what = fmt::format("{}, {}", row.term, row.target);
+                break;
+            }
+            }
+            schedule.finish(*job, what);
+        }
+    }
+
+    void prepare(Subject& subject)
+    {
+        if (!execute_) return;
+        subject.reference =
+            reference(module_, subject.function, table_of(subject.precision), options_.points);
+        const std::lock_guard lock{mutex_};
+        out_.acceptance_seconds += subject.reference->seconds;
+        out_.acceptance_points += options_.points;
+    }
+
+    void run_row(Row& row, const Subject& subject, std::optional<device::Device>& device)
+    {
+        const auto start = Clock::now();
+        const emit::Target& target = *emit::find_target(row.target);
+        const emit::Harness harness =
+            emit::harness(module_, sources_, subject.function, target, subject.precision);
+        Judged judged = judge_harness(harness, target, subject.precision);
+        row.judgements = std::move(judged.judgements);
+        row.judge_seconds = seconds_since(start);
+        if (!execute_ || judged.direct.empty()) return;
+        if (!device) {
+            row.failure = "this thread could not open the device again";
+            return;
+        }
+
+        const auto start_of_run = Clock::now();
+        std::vector<float> results;
+        const auto run = [&](const std::vector<std::uint32_t>& spirv, Agreement& agreement) {
+            if (const auto why = execute(*device, *subject.reference, harness, spirv, results))
+                row.failure = *why;
+            else
+                agreement = compare(*subject.reference, results);
+        };
+        run(judged.direct, row.direct);
+        if (row.failure.empty()) run(judged.optimized, row.optimized);
+        row.executed = row.failure.empty();
+        row.run_seconds = seconds_since(start_of_run);
+    }
+
+    const ir::Module& module_;
+    const Sources& sources_;
+    const VerifyOptions& options_;
+    std::vector<const emit::Target*> targets_;
+    bool execute_ = false;
+    Verification out_;
+    std::vector<File> files_;
+    std::vector<Subject> subjects_;
+    std::mutex mutex_;  ///< guards the sums in `out_`
+};
+
+}  // namespace
+
+bool Row::ok() const
+{
+    return failure.empty() && direct.agrees() && optimized.agrees() &&
+           std::ranges::all_of(judgements, &Judgement::accepted);
+}
+
+bool Verification::ok() const
+{
+    return std::ranges::all_of(rows, &Row::ok) &&
+           std::ranges::all_of(judgements, &Judgement::accepted);
+}
+
+std::size_t Verification::outside() const
+{
+    std::size_t sum = 0;
+    for (const Row& row : rows) sum += row.direct.outside + row.optimized.outside;
+    return sum;
+}
+
+std::vector<ir::FunctionId> checked_functions(const ir::Module& module)
+{
+    std::vector<bool> is_condition(module.functions.size());
+    for (const ir::Effect& effect : module.effects) is_condition[effect.off_when.index] = true;
+    std::vector<ir::FunctionId> result;
+    for (std::size_t i = 0; i < module.functions.size(); ++i)
+        if (module.owns(module.functions[i]) && !is_condition[i])
+            result.push_back(ir::FunctionId{i});
+    return result;
+}
+
+Verification verify(const ir::Module& module, const Sources& sources, const VerifyOptions& options)
+{
+    return Verifier{module, sources, options}.run();
+}
+
+Diagnostics complaints(const Verification& verification, const ir::Module& module)
+{
+    Diagnostics out;
+    const auto complain = [&out](const Judgement& judgement, const Span& fallback) {
+        if (judgement.accepted) return;
+        Diagnostic diagnostic;
+        diagnostic.code = Code::judge_rejects;
+        diagnostic.message = fmt::format("{} rejects `{}`", judgement.judge, judgement.artifact);
+        diagnostic.primary.span = fallback;
+        bool placed = false;
+        for (const Remark& remark : judgement.remarks) {
+            if (remark.place && !placed) {
+                diagnostic.primary = {*remark.place, "the rejected line was written for this"};
+                placed = true;
+            }
+            diagnostic.notes.push_back(remark.line > 0
+                                           ? fmt::format("line {}: {}", remark.line, remark.text)
+                                           : remark.text);
+        }
+        diagnostic.helps.push_back("this is a fault of the compiler, not of the model");
+        out.report(std::move(diagnostic));
+    };
+
+    // A file's place, when a judge names none, is the first thing that the module declares.
+    const auto own = checked_functions(module);
+    const Span start = own.empty() ? Span{} : module[own.front()].span;
+    for (const Judgement& judgement : verification.judgements) complain(judgement, start);
+    for (const Row& row : verification.rows) {
+        const auto function = module.find(row.term);
+        for (const Judgement& judgement : row.judgements)
+            complain(judgement, function ? module[*function].span : start);
+    }
+    return out;
+}
+
+}  // namespace lobe::analyze
