@@ -1,0 +1,61 @@
+// One logical device with one queue: what a thread needs to itself while it runs a shader.
+//
+// A lane keeps its buffers, which only grow, so that a run costs a pipeline and a dispatch. Used
+// by one thread at a time, it needs no lock.
+#pragma once
+
+#include "device/channel.h"
+#include "device/physical.h"
+
+#include <span>
+
+namespace lobe::device {
+
+class Lane {
+public:
+    /// Null, with `why`, on failure.
+    static std::shared_ptr<Lane> open(std::shared_ptr<const Instance> instance,
+                                      const PhysicalDevice& physical, bool always_stage,
+                                      std::string& why);
+    Lane(const Lane&) = delete;
+    Lane& operator=(const Lane&) = delete;
+
+    /// Makes the pipeline of the dispatches that follow.
+    Failure load(std::span<const std::uint32_t> spirv, std::string_view entry);
+
+    /// Copies what a dispatch reads, and what it may leave as it is, into the buffers.
+    Failure upload(std::span<const float> input, std::span<const float> output);
+
+    /// Runs the pipeline and waits for its end, however long that takes. Touches nothing but this.
+    Failure dispatch(std::uint32_t groups, std::uint32_t count);
+
+    void download(std::span<float> output) const;
+
+private:
+    Lane(std::shared_ptr<const Instance> instance, const PhysicalDevice& physical, VkDevice device);
+    Failure prepare_descriptors();
+    Failure prepare_commands(std::uint32_t queue_family);
+    void point_descriptors_at_buffers();
+    Failure record(std::uint32_t groups, std::uint32_t count);
+
+    // In order of creation: the members that come after the device's handle are destroyed first.
+    struct OwnedDevice {
+        VkDevice handle;
+        ~OwnedDevice() { vkDestroyDevice(handle, nullptr); }
+    };
+    std::shared_ptr<const Instance> instance_;
+    OwnedDevice device_;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    OwnedSetLayout set_layout_;
+    OwnedPipelineLayout pipeline_layout_;
+    OwnedDescriptorPool descriptors_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    OwnedCommandPool command_pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    OwnedFence fence_;
+    Channel input_;
+    Channel output_;
+    OwnedPipeline pipeline_;
+};
+
+}  // namespace lobe::device
