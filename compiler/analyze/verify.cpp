@@ -125,6 +125,7 @@ public:
     Verification run()
     {
         const auto start = Clock::now();
+        out_.module = module_.name;
         std::optional<device::Device> first;
         if (options_.execute) first = device::Device::open(options_.device, out_.no_device);
         if (first) out_.device = fmt::format("{}, {}", first->facts().name, first->facts().driver);

@@ -50,6 +50,7 @@ struct Row {
 };
 
 struct Verification {
+    std::string module;                 ///< its name
     std::vector<Judgement> judgements;  ///< of the files: by target, file, judge
     std::vector<Row> rows;              ///< by term, target, precision
     std::string device;                 ///< name and driver; empty when nothing was executed
