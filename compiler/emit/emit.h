@@ -29,7 +29,10 @@ struct Artifact {
 std::vector<Artifact> emit(const ir::Module& module, const Sources& sources, const Target& target);
 
 /// A number format a function can be computed in on a device.
-enum class Precision { float32, float16 };
+enum class Precision {
+    float32,
+    float16
+};
 
 /// A compute shader that evaluates one function at many points: the function exactly as `emit`
 /// writes it for this target, everything it calls, its entry point from vectors, and a main that
@@ -38,7 +41,7 @@ enum class Precision { float32, float16 };
 /// the entry point, in that order. Workgroups of 64; a push constant `uint count` bounds it.
 struct Harness {
     Artifact artifact;
-    int inputs = 0;   ///< floats per point
+    int inputs = 0;  ///< floats per point
     int outputs = 0;
     std::string entry = "main";
 };

@@ -1,0 +1,231 @@
+#include "emit/listing.h"
+
+#include "emit/wrap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lobe::emit {
+namespace {
+
+constexpr ir::Op guarded_ops[] = {ir::Op::guarded_power, ir::Op::guarded_smoothstep,
+                                  ir::Op::guarded_normalize};
+
+/// What the language's people call a function. The names of papers stay: D_GGX, c1.
+std::string function_name(const Dialect& dialect, const ir::Module& module,
+                          const ir::Function& function, const std::string& prefix)
+{
+    if (dialect.names == Case::snake) return function.name;
+    if (function.kind == ir::Function::Kind::output) return dialect.styled(function.name);
+    const auto styled = [&](const std::string& name) {
+        const bool capital = std::ranges::any_of(name, [](char c) { return c >= 'A' && c <= 'Z'; });
+        return capital || name.size() <= 2 ? name : dialect.styled(name);
+    };
+    if (function.kind == ir::Function::Kind::form && function.form_of.valid())
+        return prefix + styled(module[function.form_of].name) + "_" +
+               dialect.styled(function.form_name);
+    return prefix + styled(function.name);
+}
+
+std::string end_text(double value)
+{
+    if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
+    return fmt::format("{:.7g}", value);
+}
+
+}  // namespace
+
+std::vector<Record> lines(const std::vector<std::string>& texts)
+{
+    std::vector<Record> records;
+    for (const std::string& text : texts) records.push_back({{{"text", text}}, {}});
+    return records;
+}
+
+std::string range_text(const ir::Range& range)
+{
+    if (std::isinf(range.low) && std::isinf(range.high)) return {};
+    return fmt::format("{}{}, {}{}", std::isinf(range.low) ? "(" : "[", end_text(range.low),
+                       end_text(range.high), std::isinf(range.high) ? ")" : "]");
+}
+
+std::string shown_path(std::string_view path)
+{
+    const bool absolute = path.starts_with('/') || (path.size() > 1 && path[1] == ':');
+    if (absolute) path.remove_prefix(path.find_last_of("/\\") + 1);
+    return std::string{path};
+}
+
+Listing::Listing(const ir::Module& module, const Sources& sources, const Dialect& dialect,
+                 std::vector<ir::FunctionId> functions, std::string prefix,
+                 const std::vector<std::string>& taken)
+    : module_(module), sources_(sources), dialect_(dialect), functions_(std::move(functions)),
+      prefix_(std::move(prefix)), file_(dialect), names_(module.functions.size())
+{
+    for (const std::string& name : taken) file_.unique(name);
+    for (const ir::Op op : guarded_ops) file_.unique(helper_name(dialect_, prefix_, op));
+    for (const ir::FunctionId id : functions_)
+        names_[id.index] = file_.unique(function_name(dialect_, module_, module_[id], prefix_));
+}
+
+std::vector<Record> Listing::functions()
+{
+    std::vector<Record> records;
+    for (const ir::FunctionId id : functions_)
+        records.push_back(function(module_[id], names_[id.index]));
+    return records;
+}
+
+Scope Listing::scope() const { return {module_, dialect_, names_, {}, {}, file_, prefix_}; }
+
+Body Listing::write(Scope& scope, const ir::Graph& graph, const std::vector<ir::ExprId>& roots)
+{
+    return emit::write(scope, helpers_, graph, roots);
+}
+
+Record Listing::function(const ir::Function& function, const std::string& name)
+{
+    Scope scope = this->scope();
+    std::vector<std::string> parameters;
+    for (const ir::Input& input : function.inputs) {
+        scope.inputs.push_back(scope.namer.unique(input_name(dialect_, input)));
+        scope.colors.push_back(input.quantity == ir::Quantity::color);
+        parameters.push_back(fmt::format("{} {}", dialect_.type(input.type), scope.inputs.back()));
+    }
+    Body body = write(scope, function.graph, {function.result});
+    body.locals.push_back({fmt::format("return {};", body.results.front().text),
+                           function.graph.span(function.result)});
+
+    const std::string inside = fmt::format("{}", fmt::join(parameters, ", "));
+    const std::string signature = fmt::format("{} {}{}{}{}", dialect_.type(function.type()), name,
+                                              inside.empty() ? "(" : dialect_.call_open, inside,
+                                              inside.empty() ? ")" : dialect_.call_close);
+    return {{{"signature", wrap(signature, 0, dialect_.indent)}},
+            {{"comment", comment(function)}, {"statements", statements(body.locals)}},
+            tag(function.span)};
+}
+
+std::vector<Record> Listing::statements(const std::vector<Statement>& statements)
+{
+    std::vector<Record> records;
+    for (const Statement& statement : statements)
+        records.push_back({{{"text", wrap(statement.text, 4, dialect_.indent)}},
+                           {},
+                           statement.span == Span{} ? -1 : tag(statement.span)});
+    return records;
+}
+
+std::vector<Record> Listing::comment(const ir::Function& function) const
+{
+    std::vector<std::string> text = fill(function.doc, 92);
+    for (const ir::Citation& citation : function.citations) {
+        std::string key = citation.source;
+        if (!citation.locator.empty()) key += " " + citation.locator;
+        // The declaration in the same file, for two modules may use one short name.
+        const ir::Source* source = nullptr;
+        for (const ir::Source& declared : module_.sources)
+            if (declared.name == citation.source &&
+                (source == nullptr || declared.span.source == function.span.source))
+                source = &declared;
+        for (std::string& line : fill(source == nullptr ? key : key + ": " + source->text, 92))
+            text.push_back(std::move(line));
+    }
+    if (!function.formula.empty()) {
+        std::string formula = "= " + function.formula;
+        for (std::string& line : fill(formula, 92)) text.push_back(std::move(line));
+    }
+    std::string expects;
+    for (const ir::Input& input : function.inputs) {
+        const std::string range = range_text(input.range);
+        if (range.empty() || input.quantity == ir::Quantity::direction) continue;
+        expects += fmt::format("{}{} in {}", expects.empty() ? "Expects " : ", ",
+                               input_name(dialect_, input), range);
+    }
+    const std::string range = range_text(function.range);
+    if (!expects.empty()) expects += ". ";
+    if (!range.empty()) expects += fmt::format("Returns {}.", range);
+    for (std::string& line : fill(expects, 92)) text.push_back(std::move(line));
+    text.push_back(cite(function.span));
+    return lines(text);
+}
+
+std::vector<Record> Listing::helpers()
+{
+    std::vector<Record> records;
+    for (const ir::Op op : guarded_ops) {
+        const bool componentwise = op != ir::Op::guarded_normalize;
+        const std::string name = helper_name(dialect_, prefix_, op);
+        std::vector<Record> scalars;
+        std::vector<Record> vectors;
+        for (const Helper& helper : helpers_) {
+            if (helper.op != op) continue;
+            const std::string type{dialect_.type(helper.type)};
+            Record record{{{"type", type}, {"guard", fmt::format("LOBE_{}_{}", name, type)}}, {}};
+            const int count = ir::components(helper.type);
+            if (count == 1) {
+                scalars.push_back(std::move(record));
+                continue;
+            }
+            std::vector<Record> parts;
+            for (int i = 0; i < count; ++i)
+                parts.push_back(
+                    {{{"letter", std::string{"xyzw"[i]}}, {"comma", i + 1 < count ? "," : ""}},
+                     {}});
+            if (componentwise) record.lists["parts"] = std::move(parts);
+            vectors.push_back(std::move(record));
+        }
+        if (scalars.empty() && vectors.empty()) continue;
+
+        Record values{{{"name", name}, {"zero", dialect_.literal(0)}}, {{"vectors", vectors}}};
+        if (componentwise) {
+            values.texts["one"] = dialect_.literal(1);
+            values.lists["scalars"] = scalars;
+        } else {
+            values.texts["scalar"] = dialect_.type(ir::Type::scalar);
+            values.texts["least"] = dialect_.least_normal;
+        }
+        const std::string path = fmt::format("{}/{}{}", dialect_.helpers,
+                                             dialect_.spelling(op).word, dialect_.extension);
+        std::string text = render_embedded(path, values).text;
+        if (text.ends_with('\n')) text.pop_back();
+        records.push_back({{{"text", std::move(text)}}, {}});
+    }
+    return records;
+}
+
+std::string Listing::cite(const Span& span) const
+{
+    return sources_.size() <= span.source ? std::string{} : shown_path(sources_.cite(span));
+}
+
+int Listing::tag(const Span& span)
+{
+    tags_.push_back(span);
+    return static_cast<int>(tags_.size()) - 1;
+}
+
+std::vector<LineOrigin> Listing::origins(const std::vector<Mark>& marks) const
+{
+    int last = 0;
+    for (const Mark& mark : marks) last = std::max(last, mark.last);
+    std::vector<int> tag_of(static_cast<std::size_t>(last) + 1, -1);
+    for (const Mark& mark : marks)
+        for (int line = mark.first; line <= mark.last; ++line)
+            if (int& tag = tag_of[static_cast<std::size_t>(line)]; tag < 0) tag = mark.tag;
+
+    std::vector<LineOrigin> result;
+    for (int line = 1; line <= last; ++line) {
+        const int tag = tag_of[static_cast<std::size_t>(line)];
+        if (tag < 0) continue;
+        const Span& span = tags_[static_cast<std::size_t>(tag)];
+        if (!result.empty() && result.back().last == line - 1 && result.back().span == span)
+            result.back().last = line;
+        else
+            result.push_back({line, line, span});
+    }
+    return result;
+}
+
+}  // namespace lobe::emit

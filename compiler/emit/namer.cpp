@@ -1,0 +1,36 @@
+#include "emit/namer.h"
+
+#include <fmt/format.h>
+
+namespace lobe::emit {
+namespace {
+
+/// Without what GLSL keeps for itself.
+std::string allowed(std::string_view wanted)
+{
+    std::string name;
+    for (const char c : wanted)
+        if (c != '_' || name.empty() || name.back() != '_') name += c;
+    if (name.starts_with("gl_")) name.insert(0, "a_");
+    return name;
+}
+
+}  // namespace
+
+bool Namer::is_taken(std::string_view name) const
+{
+    return taken_.contains(name) || dialect_->reserved.contains(name);
+}
+
+std::string Namer::unique(std::string_view wanted)
+{
+    const std::string base = allowed(wanted);
+    std::string name = base;
+    if (dialect_->reserved.contains(name) && !name.ends_with('_')) name += '_';
+    const std::string stem = base.ends_with('_') ? base.substr(0, base.size() - 1) : base;
+    for (int count = 2; is_taken(name); ++count) name = fmt::format("{}_{}", stem, count);
+    taken_.insert(name);
+    return name;
+}
+
+}  // namespace lobe::emit

@@ -1,0 +1,78 @@
+#include "emit/wrap.h"
+
+namespace lobe::emit {
+namespace {
+
+constexpr std::size_t page = 100;
+
+/// Where to break, or npos: the index of the space that the break replaces.
+std::size_t break_before(std::string_view line, std::size_t room)
+{
+    std::size_t best = std::string_view::npos;
+    int best_depth = 0;
+    int depth = 0;
+    bool inside = false;  // past the first parenthesis or `=`: not between a type and its name
+    for (std::size_t i = 0; i < line.size() && i <= room; ++i) {
+        const char c = line[i];
+        if (c == '(') ++depth;
+        if (c == ')') --depth;
+        if (c == '(' || c == '=') inside = true;
+        if (c != ' ' || i == 0 || !inside) continue;
+        const char before = line[i - 1];
+        const char after = i + 1 < line.size() ? line[i + 1] : ' ';
+        const bool operation =
+            std::string_view{"+-*/?:&|<>"}.find(after) != std::string_view::npos &&
+            i + 2 < line.size() && (line[i + 2] == ' ' || line[i + 2] == after);
+        if (before != ',' && !operation) continue;
+        if (best == std::string_view::npos || depth <= best_depth) {
+            best = i;
+            best_depth = depth;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+std::string wrap(std::string_view line, std::size_t column, std::string_view indent)
+{
+    std::string text;
+    // A tab takes the room of four columns.
+    std::size_t margin = 0;
+    for (const char c : indent) margin += c == '\t' ? 4 : 1;
+
+    std::size_t start = column;
+    while (start + line.size() > page) {
+        const std::size_t at = break_before(line, page - start);
+        if (at == std::string_view::npos) break;
+        text += line.substr(0, at);
+        text += '\n';
+        text += indent;
+        line.remove_prefix(at + 1);
+        start = column + margin;
+    }
+    text += line;
+    return text;
+}
+
+std::vector<std::string> fill(std::string_view prose, std::size_t width)
+{
+    std::vector<std::string> lines;
+    std::string line;
+    while (!prose.empty()) {
+        const auto end = prose.find_first_of(" \n");
+        const std::string_view word = prose.substr(0, end);
+        prose.remove_prefix(end == std::string_view::npos ? prose.size() : end + 1);
+        if (word.empty()) continue;
+        if (!line.empty() && line.size() + 1 + word.size() > width) {
+            lines.push_back(std::move(line));
+            line.clear();
+        }
+        if (!line.empty()) line += ' ';
+        line += word;
+    }
+    if (!line.empty()) lines.push_back(std::move(line));
+    return lines;
+}
+
+}  // namespace lobe::emit
