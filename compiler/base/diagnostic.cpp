@@ -86,7 +86,8 @@ std::vector<Diagnostic> Diagnostics::sorted() const
     return result;
 }
 
-std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& candidates)
+std::optional<std::string> nearest(std::string_view name,
+                                   const std::vector<std::string>& candidates)
 {
     // Names longer than this are not misspelt, they are wrong; and the distance is quadratic.
     constexpr std::size_t longest = 64;

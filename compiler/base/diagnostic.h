@@ -13,7 +13,10 @@
 
 namespace lobe {
 
-enum class Severity { error, warning };
+enum class Severity {
+    error,
+    warning
+};
 
 /// Every diagnostic the compiler can report. The enumerator is the name, `id()` the number.
 enum class Code {
@@ -41,9 +44,9 @@ struct Label {
 
 /// An edit that would cure the problem, shown as the corrected line.
 struct Fix {
-    Span span;                ///< what to replace; empty spans insert
+    Span span;  ///< what to replace; empty spans insert
     std::string replacement;
-    std::string text;         ///< what the edit does, lower case: "start the range above zero"
+    std::string text;  ///< what the edit does, lower case: "start the range above zero"
 };
 
 struct Diagnostic {
@@ -77,6 +80,7 @@ private:
 
 /// The candidate nearest to a misspelt name: equal but for case, or at most two edits away
 /// (insert, delete, replace, swap neighbours) and less than half the name.
-std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& candidates);
+std::optional<std::string> nearest(std::string_view name,
+                                   const std::vector<std::string>& candidates);
 
 }  // namespace lobe

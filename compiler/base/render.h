@@ -22,8 +22,7 @@ namespace lobe {
 ///     5 |         alpha^2 / (pi * (NoH^2 * (alpha^2 - 1) + 1)^2)
 ///       |                   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ is 0 at alpha = 0, NoH = 1
 ///       = note: over its parameters' ranges this divisor lies in [0, 3.14159]
-std::string render_text(const Sources& sources, const Diagnostics& diagnostics,
-                        bool color = false);
+std::string render_text(const Sources& sources, const Diagnostics& diagnostics, bool color = false);
 
 /// For editors: `path:5:19: error[E0501]: divisor of `D` reaches zero`, one line each.
 std::string render_short(const Sources& sources, const Diagnostics& diagnostics);

@@ -1,8 +1,8 @@
 #include "base/source.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace lobe {
 
@@ -34,8 +34,8 @@ std::string_view Source::line(int number) const
 {
     if (number < 1 || number > line_count()) return {};
     const std::size_t begin = line_starts_[static_cast<std::size_t>(number - 1)];
-    std::size_t end = number < line_count() ? line_starts_[static_cast<std::size_t>(number)] - 1
-                                            : text_.size();
+    std::size_t end =
+        number < line_count() ? line_starts_[static_cast<std::size_t>(number)] - 1 : text_.size();
     if (end > begin && text_[end - 1] == '\r') --end;
     return std::string_view{text_}.substr(begin, end - begin);
 }

@@ -34,61 +34,12 @@ constexpr std::array look_alikes{
 
 }  // namespace
 
-std::size_t character_size(char lead)
-{
-    const auto byte = static_cast<unsigned char>(lead);
-    if (byte >= 0xF0) return 4;
-    if (byte >= 0xE0) return 3;
-    if (byte >= 0xC0) return 2;
-    return 1;
-}
-
-char32_t decode(std::string_view text)
-{
-    if (text.empty()) return 0;
-    const std::size_t size = std::min(character_size(text.front()), text.size());
-    const auto lead = static_cast<unsigned char>(text.front());
-    if (size == 1) return lead;
-    char32_t code = lead & (0x7FU >> size);
-    for (std::size_t i = 1; i < size; ++i)
-        code = (code << 6) | (static_cast<unsigned char>(text[i]) & 0x3FU);
-    return code;
-}
-
-bool changes_text_direction(char32_t code)
-{
-    return (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
-}
-
 const LookAlike* look_alike(std::string_view text)
 {
     const auto* const found =
         std::find_if(look_alikes.begin(), look_alikes.end(),
                      [&](const LookAlike& candidate) { return text.starts_with(candidate.text); });
     return found == look_alikes.end() ? nullptr : found;
-}
-
-std::size_t first_not_utf8(std::string_view text)
-{
-    constexpr std::array<char32_t, 5> smallest{0, 0, 0x80, 0x800, 0x10000};
-    std::size_t at = 0;
-    while (at < text.size()) {
-        const auto lead = static_cast<unsigned char>(text[at]);
-        const std::size_t size = character_size(text[at]);
-        if (size == 1) {
-            if (lead >= 0x80) return at;
-            ++at;
-            continue;
-        }
-        if (lead > 0xF4 || at + size > text.size()) return at;
-        for (std::size_t i = 1; i < size; ++i)
-            if ((static_cast<unsigned char>(text[at + i]) & 0xC0) != 0x80) return at;
-        const char32_t code = decode(text.substr(at, size));
-        const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-        if (code < smallest[size] || code > 0x10FFFF || surrogate) return at;
-        at += size;
-    }
-    return at;
 }
 
 }  // namespace lobe::syntax

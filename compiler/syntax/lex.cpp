@@ -1,5 +1,6 @@
 #include "syntax/lex.h"
 
+#include "base/utf8.h"
 #include "syntax/characters.h"
 
 #include <array>
@@ -8,6 +9,9 @@
 
 namespace lobe::syntax {
 namespace {
+
+/// U+FEFF, which some editors put before the text.
+constexpr std::string_view signature = "\xEF\xBB\xBF";
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -77,7 +81,7 @@ public:
 
     Tokens run()
     {
-        if (text_.starts_with(utf8_signature)) at_ = utf8_signature.size();
+        if (text_.starts_with(signature)) at_ = signature.size();
         while (at_ < text_.size()) step();
         push(TokenKind::end, at_, at_);
         return std::move(out_);
@@ -243,7 +247,8 @@ private:
                 if (peek(1) == '"' || peek(1) == '\\') {
                     at_ += 2;
                 } else {
-                    const std::size_t wide = at_ + 1 < text_.size() ? character_size(peek(1)) : 0;
+                    const std::size_t wide =
+                        at_ + 1 < text_.size() ? first_character(text_.substr(at_ + 1)).size : 0;
                     if (peek(1) != '\n' && peek(1) != '\r' && wide > 0)
                         trouble(Trouble::unknown_escape, at_, at_ + 1 + wide);
                     ++at_;
@@ -294,7 +299,7 @@ private:
     {
         const std::size_t begin = at_;
         const char c = peek();
-        const auto code = decode(text_.substr(at_));
+        const auto code = first_character(text_.substr(at_)).code;
         Trouble what{};
         if (c == '\r' && peek(1) != '\n')
             what = Trouble::carriage_return;
@@ -306,9 +311,8 @@ private:
             what = Trouble::byte_order_mark;
         else
             return false;
-        while (at_ < text_.size() &&
-               text_.substr(at_, character_size(c)) == text_.substr(begin, character_size(c)))
-            at_ += character_size(c);
+        const std::string_view one = text_.substr(begin, first_character(text_.substr(begin)).size);
+        while (starts(one)) at_ += one.size();
         trouble(what, begin, at_);
         return true;
     }
@@ -331,12 +335,12 @@ private:
             return;
         }
         const bool ascii = static_cast<unsigned char>(peek()) < 0x80;
-        do at_ += character_size(peek());
+        do at_ += first_character(text_.substr(at_)).size;
         while (at_ < text_.size() &&
                (ascii ? peek() == text_[begin]
                       : static_cast<unsigned char>(peek()) >= 0x80 &&
                             look_alike(text_.substr(at_)) == nullptr &&
-                            !changes_text_direction(decode(text_.substr(at_)))));
+                            !changes_text_direction(first_character(text_.substr(at_)).code)));
         trouble(ascii ? Trouble::stray : Trouble::not_ascii, begin, at_);
         push(TokenKind::unknown, begin, at_);
     }

@@ -1,6 +1,6 @@
 #include "syntax/parse.h"
 
-#include "syntax/characters.h"
+#include "base/utf8.h"
 #include "syntax/parser.h"
 
 #include <fmt/format.h>
