@@ -38,8 +38,11 @@ namespace {
 Message message_of(const Diagnostic& diagnostic, const Sources& sources)
 {
     const Position at = sources.position(diagnostic.primary.span);
-    return {std::string{id(diagnostic.code)}, severity(diagnostic.code) == Severity::error,
-            sources[diagnostic.primary.span.source].path(), at.line, at.column,
+    return {std::string{id(diagnostic.code)},
+            severity(diagnostic.code) == Severity::error,
+            sources[diagnostic.primary.span.source].path(),
+            at.line,
+            at.column,
             diagnostic.message};
 }
 

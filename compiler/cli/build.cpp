@@ -3,12 +3,12 @@
 #include "cli/files.h"
 #include "cli/program.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
-
-#include <fmt/format.h>
 
 namespace lobe::cli {
 namespace {

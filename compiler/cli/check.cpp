@@ -2,9 +2,9 @@
 #include "cli/commands.h"
 #include "cli/program.h"
 
-#include <memory>
-
 #include <fmt/format.h>
+
+#include <memory>
 
 namespace lobe::cli {
 
@@ -17,8 +17,9 @@ void add_check(CLI::App& app, const Terminal& terminal, int& status)
     auto* command = app.add_subcommand("check", "Report what is wrong with models, write nothing");
     auto check = std::make_shared<Check>();
     command->add_option("FILE", check->inputs, "A .lobe file, or a folder of them")->required();
-    command->add_option("--format,--message-format", check->format,
-                        "text, short (one line each), json (one object a line), sarif")
+    command
+        ->add_option("--format,--message-format", check->format,
+                     "text, short (one line each), json (one object a line), sarif")
         ->check(CLI::IsMember({"text", "short", "json", "sarif"}))
         ->capture_default_str();
     command->footer("Example: lobec check models --format sarif > findings.sarif");

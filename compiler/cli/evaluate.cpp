@@ -4,12 +4,12 @@
 #include "cli/files.h"
 #include "cli/program.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <sstream>
-
-#include <fmt/format.h>
 
 namespace lobe::cli {
 namespace {
@@ -45,7 +45,8 @@ struct Evaluate {
         }
         std::istream& in = table == "-" ? std::cin : file;
 
-        if (output == "-") return finish(terminal, evaluate(module, *function, *kind, in, std::cout));
+        if (output == "-")
+            return finish(terminal, evaluate(module, *function, *kind, in, std::cout));
         // Nothing half-written: the file appears only when the whole table is computed.
         std::ostringstream whole;
         const int status = finish(terminal, evaluate(module, *function, *kind, in, whole));
@@ -69,10 +70,12 @@ struct Evaluate {
         const std::string name = table == "-" ? "standard input" : table;
         const std::string place =
             outcome.error->line > 0 ? fmt::format("{}:{}", name, outcome.error->line) : name;
-        const std::string column =
-            outcome.error->column.empty() ? "" : fmt::format(", column `{}`", outcome.error->column);
+        const std::string column = outcome.error->column.empty()
+                                       ? ""
+                                       : fmt::format(", column `{}`", outcome.error->column);
         fail(terminal, fmt::format("{}{}: {}", place, column, outcome.error->message));
-        for (const std::string& hint : outcome.error->hints) fmt::print(stderr, "  = help: {}\n", hint);
+        for (const std::string& hint : outcome.error->hints)
+            fmt::print(stderr, "  = help: {}\n", hint);
         return broken;
     }
 
@@ -83,9 +86,9 @@ struct Evaluate {
         const auto near = nearest(term, names);
         std::string list;
         for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-        return fail(terminal, fmt::format("{} has no term `{}`{}\n  = note: it exports {}", input,
-                                          term, near ? fmt::format("; did you mean `{}`?", *near) : "",
-                                          list));
+        return fail(terminal,
+                    fmt::format("{} has no term `{}`{}\n  = note: it exports {}", input, term,
+                                near ? fmt::format("; did you mean `{}`?", *near) : "", list));
     }
 };
 
@@ -104,15 +107,18 @@ void add_evaluate(CLI::App& app, const Terminal& terminal, int& status)
         ->required();
     command->add_option("--csv", evaluate->table, "The table; `-` reads standard input")
         ->capture_default_str();
-    command->add_option("--number", evaluate->number,
-                        "double, float, half, half:flush, interval, acceptance, acceptance:half, "
-                        "mpfr:BITS")
+    command
+        ->add_option("--number", evaluate->number,
+                     "double, float, half, half:flush, interval, acceptance, acceptance:half, "
+                     "mpfr:BITS")
         ->capture_default_str();
     command->add_option("-o,--output", evaluate->output, "Where to write; `-` is standard output")
         ->capture_default_str();
     command->footer(
-        "One column per input: geometry as l.x .. v.z (n defaults to 0, 0, 1), colors as .r .g .b,\n"
-        "a missing parameter takes its default. Result columns are appended, with digits enough to\n"
+        "One column per input: geometry as l.x .. v.z (n defaults to 0, 0, 1), colors as .r .g "
+        ".b,\n"
+        "a missing parameter takes its default. Result columns are appended, with digits enough "
+        "to\n"
         "read back exactly.\n"
         "Example: lobec evaluate models/microfacet.lobe --term F_Schlick --csv in.csv --number "
         "mpfr:200");

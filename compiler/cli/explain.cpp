@@ -3,9 +3,9 @@
 #include "base/embedded.h"
 #include "cli/commands.h"
 
-#include <memory>
-
 #include <fmt/format.h>
+
+#include <memory>
 
 namespace lobe::cli {
 namespace {

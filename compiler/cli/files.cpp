@@ -1,5 +1,8 @@
 #include "cli/files.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -7,9 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-
-#include <fmt/format.h>
-#include <unistd.h>
 
 namespace lobe::cli {
 namespace fs = std::filesystem;
@@ -76,9 +76,9 @@ public:
         if (out == nullptr)
             return fmt::format("cannot write {}: {}", file.path, std::strerror(errno));
         staged_.emplace_back(temporary, place);
-        const bool whole = std::fwrite(file.text.data(), 1, file.text.size(), out) ==
-                               file.text.size() &&
-                           std::fflush(out) == 0;
+        const bool whole =
+            std::fwrite(file.text.data(), 1, file.text.size(), out) == file.text.size() &&
+            std::fflush(out) == 0;
         const int reason = errno;
         const bool closed = std::fclose(out) == 0;
         if (!whole || !closed)

@@ -1,13 +1,14 @@
 // `lobec format`: the one way to write a file.
+#include "syntax/format.h"
+
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/program.h"
-#include "syntax/format.h"
 #include "syntax/parse.h"
 
-#include <memory>
-
 #include <fmt/format.h>
+
+#include <memory>
 
 namespace lobe::cli {
 namespace {

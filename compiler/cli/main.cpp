@@ -1,14 +1,18 @@
 // `lobec`: arguments in, one command run, an exit code out.
 #include "cli/commands.h"
 
+#include <fmt/format.h>
+
+#include <csignal>
 #include <cstdio>
 #include <exception>
-
-#include <fmt/format.h>
 
 int main(int argc, char** argv)
 {
     using namespace lobe::cli;
+
+    // A file that grows past a limit is an error to report, like a full disk, not a signal to die of.
+    std::signal(SIGXFSZ, SIG_IGN);
 
     CLI::App app{"lobec: a compiler for BRDF terms.\n"
                  "One .lobe file becomes Unreal .ush, GLSL, ESSL and HLSL, each validated by real\n"

@@ -2,10 +2,10 @@
 
 #include "cli/files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
-
-#include <fmt/format.h>
 
 namespace lobe::cli {
 namespace fs = std::filesystem;

@@ -2,12 +2,12 @@
 
 #include "base/render.h"
 
-#include <cstdio>
-#include <cstdlib>
-
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
 
 namespace lobe::cli {
 namespace {
@@ -51,8 +51,8 @@ void print(const Terminal& terminal, const Diagnostics& diagnostics, const Sourc
 
 int fail(const Terminal& terminal, const std::string& message)
 {
-    fmt::print(stderr, "{}: {}\n",
-               terminal.color_on_stderr() ? "\x1b[1;31merror\x1b[0m" : "error", message);
+    fmt::print(stderr, "{}: {}\n", terminal.color_on_stderr() ? "\x1b[1;31merror\x1b[0m" : "error",
+               message);
     return broken;
 }
 
