@@ -17,6 +17,16 @@ constexpr std::array<std::string_view, 9> mutation_names{
     "swap inputs",  "drop pi",      "swap lerp ends", "flip sign",      "constant by 1e-4",
     "remove guard", "swap min max", "drop square",    "invert quotient"};
 
+/// How the names of guarded helpers end, and the built-in function that each one guards.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> guarded{{
+    {"guarded_power", "pow"},
+    {"GuardedPower", "pow"},
+    {"guarded_smoothstep", "smoothstep"},
+    {"GuardedSmoothstep", "smoothstep"},
+    {"guarded_normalize", "normalize"},
+    {"GuardedNormalize", "normalize"},
+}};
+
 struct Edit {
     std::size_t begin = 0;
     std::size_t end = 0;
@@ -26,10 +36,10 @@ struct Edit {
 /// Walks the tokens of a harness and collects the mutants of every place.
 class Mutator {
 public:
-    explicit Mutator(const emit::Artifact& harness)
-        : source_(harness.text), tokens_(tokenize(source_))
+    explicit Mutator(const emit::Harness& harness)
+        : source_(harness.artifact.text), tokens_(tokenize(source_)), entry_(harness.entry)
     {
-        for (const emit::LineOrigin& origin : harness.origins)
+        for (const emit::LineOrigin& origin : harness.artifact.origins)
             ranges_.emplace_back(origin.first, origin.last);
     }
 
@@ -37,7 +47,7 @@ public:
     {
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
             if (starts_function(i)) function_ = tokens_[i + 1].text;
-            if (!is_mutable(tokens_[i].line)) continue;
+            if (function_ == entry_ || !is_mutable(tokens_[i].line)) continue;
             if (starts_function(i)) swap_inputs(i + 2);
             drop_pi(i);
             swap_ends(i);
@@ -215,6 +225,10 @@ private:
                 replace(mutation, i, close(), fmt::format("({})", text_of(args[1])));
         }
         if (text_at(i) == "?") remove_choice(i);
+        // The guarded helpers, whatever their prefix and style: the bare function in their place.
+        if (is_name(i) && text_at(i + 1) == "(" && !starts_function(i - 1))
+            for (const auto& [ending, bare] : guarded)
+                if (text_at(i).ends_with(ending)) replace(mutation, i, i + 1, std::string{bare});
     }
 
     bool is_literal(const TokenRange& range) const
@@ -272,6 +286,7 @@ private:
 
     std::string_view source_;
     std::vector<Token> tokens_;
+    std::string entry_;
     std::vector<std::pair<int, int>> ranges_;  ///< lines first .. last that may be changed
     std::string function_;
     std::vector<Mutant> mutants_;
@@ -295,6 +310,6 @@ const std::vector<Mutation>& all_mutations()
     return all;
 }
 
-std::vector<Mutant> mutants(const emit::Artifact& harness) { return Mutator{harness}.run(); }
+std::vector<Mutant> mutants(const emit::Harness& harness) { return Mutator{harness}.run(); }
 
 }  // namespace lobe::analyze

@@ -41,7 +41,8 @@ struct Mutant {
 };
 
 /// Every mutant of a harness, in the order of their places; within a place in the order of
-/// `Mutation`. Only lines that stem from a .lobe file are changed: not the frame, not `main`.
-std::vector<Mutant> mutants(const emit::Artifact& harness);
+/// `Mutation`. Only lines that stem from a .lobe file are changed, and not the entry point: what
+/// an engine would include, not what reads and writes the points.
+std::vector<Mutant> mutants(const emit::Harness& harness);
 
 }  // namespace lobe::analyze

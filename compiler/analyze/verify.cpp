@@ -126,11 +126,10 @@ public:
     {
         const auto start = Clock::now();
         out_.module = module_.name;
-        std::optional<device::Device> first;
-        if (options_.execute) first = device::Device::open(options_.device, out_.no_device);
-        if (first) out_.device = fmt::format("{}, {}", first->facts().name, first->facts().driver);
-        execute_ = first.has_value();
-        plan(first ? &first->facts() : nullptr);
+        if (options_.execute) device_ = device::Device::open(options_.device, out_.no_device);
+        if (device_)
+            out_.device = fmt::format("{}, {}", device_->facts().name, device_->facts().driver);
+        plan();
 
         Schedule schedule{subjects_, files_.size(), files_.size() + out_.rows.size(),
                           options_.progress};
@@ -138,8 +137,8 @@ public:
         const unsigned workers = options_.jobs > 0 ? options_.jobs : cores;
         std::vector<std::thread> threads;
         for (unsigned i = 1; i < workers; ++i)
-            threads.emplace_back([this, &schedule] { work(schedule, open_another()); });
-        work(schedule, std::move(first));
+            threads.emplace_back([this, &schedule] { work(schedule); });
+        work(schedule);
         for (std::thread& thread : threads) thread.join();
 
         for (File& file : files_)
@@ -149,25 +148,17 @@ public:
     }
 
 private:
-    std::optional<device::Device> open_another() const
-    {
-        std::string ignored;
-        if (!execute_) return std::nullopt;
-        return device::Device::open(options_.device, ignored);
-    }
-
-    bool wants(const emit::Target& target, emit::Precision precision,
-               const device::DeviceFacts* facts)
+    bool wants(const emit::Target& target, emit::Precision precision)
     {
         if (precision == emit::Precision::float32) return true;
         if (target.name != "glsl450") return false;  // the one target that emits half precision
-        if (facts == nullptr || facts->float16) return true;
+        if (!device_ || device_->facts().float16) return true;
         const std::string note = "float16: the device does not compute in it";
         if (std::ranges::find(out_.notes, note) == out_.notes.end()) out_.notes.push_back(note);
         return false;
     }
 
-    void plan(const device::DeviceFacts* facts)
+    void plan()
     {
         for (const emit::Target* target : targets_)
             for (emit::Artifact& artifact : emit::emit(module_, sources_, *target))
@@ -178,7 +169,7 @@ private:
                 subjects_.push_back({function, precision, {}, {}, 0, 0, {}});
             for (const emit::Target* target : targets_)
                 for (std::size_t i = first; i < subjects_.size(); ++i) {
-                    if (!wants(*target, subjects_[i].precision, facts)) continue;
+                    if (!wants(*target, subjects_[i].precision)) continue;
                     subjects_[i].rows.push_back(out_.rows.size());
                     Row& row = out_.rows.emplace_back();
                     row.term = module_[function].name;
@@ -189,7 +180,7 @@ private:
         std::erase_if(subjects_, [](const Subject& subject) { return subject.rows.empty(); });
     }
 
-    void work(Schedule& schedule, std::optional<device::Device> device)
+    void work(Schedule& schedule)
     {
         while (const auto job = schedule.take()) {
             std::string what;
@@ -203,7 +194,7 @@ private:
             case Schedule::Job::Kind::prepare: prepare(subjects_[job->index]); break;
             case Schedule::Job::Kind::run_row: {
                 Row& row = out_.rows[job->row];
-                run_row(row, subjects_[job->index], device);
+                run_row(row, subjects_[job->index]);
                 what = fmt::format("{}, {}", row.term, row.target);
                 break;
             }
@@ -214,7 +205,7 @@ private:
 
     void prepare(Subject& subject)
     {
-        if (!execute_) return;
+        if (!device_) return;
         subject.reference =
             reference(module_, subject.function, table_of(subject.precision), options_.points);
         const std::lock_guard lock{mutex_};
@@ -222,7 +213,7 @@ private:
         out_.acceptance_points += options_.points;
     }
 
-    void run_row(Row& row, const Subject& subject, std::optional<device::Device>& device)
+    void run_row(Row& row, const Subject& subject)
     {
         const auto start = Clock::now();
         const emit::Target& target = *emit::find_target(row.target);
@@ -231,16 +222,12 @@ private:
         Judged judged = judge_harness(harness, target, subject.precision);
         row.judgements = std::move(judged.judgements);
         row.judge_seconds = seconds_since(start);
-        if (!execute_ || judged.direct.empty()) return;
-        if (!device) {
-            row.failure = "this thread could not open the device again";
-            return;
-        }
+        if (!device_ || judged.direct.empty()) return;
 
         const auto start_of_run = Clock::now();
         std::vector<float> results;
         const auto run = [&](const std::vector<std::uint32_t>& spirv, Agreement& agreement) {
-            if (const auto why = execute(*device, *subject.reference, harness, spirv, results))
+            if (const auto why = execute(*device_, *subject.reference, harness, spirv, results))
                 row.failure = *why;
             else
                 agreement = compare(*subject.reference, results);
@@ -255,7 +242,7 @@ private:
     const Sources& sources_;
     const VerifyOptions& options_;
     std::vector<const emit::Target*> targets_;
-    bool execute_ = false;
+    std::optional<device::Device> device_;  ///< shared: it may be called from several threads
     Verification out_;
     std::vector<File> files_;
     std::vector<Subject> subjects_;
