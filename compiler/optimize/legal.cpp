@@ -1,0 +1,146 @@
+#include "optimize/legal.h"
+
+#include "evaluate/run.h"
+#include "optimize/literal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lobe::optimize {
+
+using namespace ir;
+using evaluate::Interval;
+
+namespace {
+
+class Checker {
+public:
+    Checker(const Module& module, const Function& function)
+        : function_{function}, graph_{function.graph}, ranges_{evaluate::ranges(
+                                                           module, function,
+                                                           evaluate::declared_ranges(function))},
+          uses_{use_counts(graph_, function.result)}
+    {
+    }
+
+    std::optional<std::string> run() const
+    {
+        for (const ExprId id : graph_.ids())
+            if (uses_[id] > 0)
+                if (auto broken = check(id))
+                    return fmt::format("{}: %{} {}", function_.name, id.index, *broken);
+        return std::nullopt;
+    }
+
+private:
+    std::optional<std::string> check(ExprId id) const
+    {
+        const auto operands = graph_.operands(id);
+        const auto range = [&](std::size_t i) -> const Interval& { return ranges_[operands[i]]; };
+        const auto outside = [&](std::size_t i) {
+            return fmt::format("{}: operand {} is in [{}, {}]", name(graph_[id].op), i,
+                               range(i).low, range(i).high);
+        };
+        switch (graph_[id].op) {
+        case Op::power:
+            if (!is_safe_power(range(0), range(1))) return outside(0);
+            [[fallthrough]];
+        case Op::guarded_power:
+            if (spelled_halves(graph_, operands[1], range(0)))
+                return fmt::format("{} has an exponent that products spell", name(graph_[id].op));
+            return std::nullopt;
+        case Op::smoothstep:
+            if (range(0).high < range(1).low) return std::nullopt;
+            return outside(1);
+        case Op::normalize:
+            if (is_not_zero(function_, operands[0], range(0))) return std::nullopt;
+            return outside(0);
+        case Op::divide:
+            if (range(1).low > 0 || range(1).high < 0 || is_guarded(id)) return std::nullopt;
+            return outside(1);
+        case Op::square_root:
+            if (range(0).low >= 0) return std::nullopt;
+            return outside(0);
+        case Op::inverse_square_root:
+        case Op::log:
+        case Op::log2:
+            if (range(0).low > 0) return std::nullopt;
+            return outside(0);
+        case Op::arc_sine:
+        case Op::arc_cosine:
+            if (range(0).low >= -1 && range(0).high <= 1) return std::nullopt;
+            return outside(0);
+        default: return std::nullopt;
+        }
+    }
+
+    /// Every use of this division is the arm of a select that is not taken where its divisor is 0.
+    bool is_guarded(ExprId division) const
+    {
+        if (division == function_.result) return false;
+        const ExprId divisor = graph_.operands(division)[1];
+        const auto is_zero_test = [&](ExprId condition, Op op) {
+            if (graph_[condition].op != op) return false;
+            const auto sides = graph_.operands(condition);
+            return (sides[0] == divisor && graph_.is_literal(sides[1], 0)) ||
+                   (sides[1] == divisor && graph_.is_literal(sides[0], 0));
+        };
+        for (const ExprId user : graph_.ids()) {
+            if (uses_[user] == 0) continue;
+            const auto operands = graph_.operands(user);
+            for (std::size_t i = 0; i < operands.size(); ++i) {
+                if (operands[i] != division) continue;
+                if (graph_[user].op != Op::select || i == 0) return false;
+                if (!is_zero_test(operands[0], i == 2 ? Op::equal : Op::not_equal)) return false;
+            }
+        }
+        return true;
+    }
+
+    const Function& function_;
+    const Graph& graph_;
+    Facts<Expr, Interval> ranges_;
+    Facts<Expr, int> uses_;
+};
+
+}  // namespace
+
+std::optional<std::string> illegal(const Module& module)
+{
+    for (const FunctionId id : module.reachable(module.roots()))
+        if (auto broken = Checker{module, module[id]}.run()) return broken;
+    return std::nullopt;
+}
+
+std::optional<int> spelled_halves(const Graph& graph, ExprId exponent, const Interval& base)
+{
+    // Twelve products at most; past that a power is cheaper and as accurate. A base that may be
+    // negative has no other spelling.
+    constexpr double largest = 64;
+    constexpr double largest_of_negative = 4096;
+    const auto value = exact_literal(graph, exponent);
+    if (!value) return std::nullopt;
+    const double halves = 2 * *value;
+    const bool whole = std::floor(*value) == *value;
+    if (halves != std::floor(halves) || (!whole && base.low < 0)) return std::nullopt;
+    if (std::fabs(*value) > (base.low < 0 ? largest_of_negative : largest)) return std::nullopt;
+    return static_cast<int>(halves);
+}
+
+bool is_safe_power(const Interval& base, const Interval& exponent)
+{
+    return base.low > 0 || (base.low >= 0 && exponent.low > 0);
+}
+
+bool is_not_zero(const Function& function, ExprId vector, const Interval& hull)
+{
+    if (hull.low > 0 || hull.high < 0) return true;
+    const Expr& expr = function.graph[vector];
+    return expr.op == Op::input && function.inputs[expr.aux].quantity == Quantity::direction &&
+           !(function.inputs[expr.aux].origin == Origin::geometry &&
+             function.inputs[expr.aux].which == static_cast<std::uint32_t>(GeometryField::h));
+}
+
+}  // namespace lobe::optimize

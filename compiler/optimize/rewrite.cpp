@@ -1,0 +1,243 @@
+#include "optimize/rewrite.h"
+
+#include <algorithm>
+#include <string>
+
+namespace lobe::optimize {
+
+using namespace ir;
+
+namespace {
+
+/// The input that a function gains when a callee asks for this field or parameter.
+Input gained_input(const Module& module, Origin origin, std::uint32_t which)
+{
+    const auto from_field = [&](const FieldFacts& field, Quantity vector) {
+        const Quantity quantity = field.type == Type::vec3 ? vector : Quantity::number;
+        return Input{std::string{field.name},
+                     field.type,
+                     quantity,
+                     {field.low, field.high},
+                     origin,
+                     which,
+                     {}};
+    };
+    switch (origin) {
+    case Origin::geometry:
+        return from_field(facts(static_cast<GeometryField>(which)), Quantity::direction);
+    case Origin::surface:
+        return from_field(facts(static_cast<SurfaceField>(which)), Quantity::color);
+    case Origin::parameter: {
+        const Parameter& parameter = module.parameters[which];
+        return {parameter.name, parameter.type, parameter.quantity, parameter.range,
+                origin,         which,          parameter.span};
+    }
+    case Origin::argument: break;
+    }
+    assert(false && "an argument comes from the caller's operand");
+    return {};
+}
+
+}  // namespace
+
+Rebuild::Rebuild(const Module& old_module, const Module& new_module,
+                 const std::vector<std::vector<Wire>>& wires, FunctionId id, bool is_root)
+    : old_module_{&old_module},
+      new_module_{&new_module}, wires_{&wires}, id_{id}, is_root_{is_root},
+      moved_(old_module[id].graph.size())
+{
+    for (std::uint32_t i = 0; i < old().inputs.size(); ++i)
+        slots_.push_back({old().inputs[i], {Wire::Kind::kept, i}});
+    complement = [this](ExprId operand) {
+        return graph.apply(Op::subtract, {graph.literal("1"), moved(operand)});
+    };
+}
+
+std::vector<ExprId> Rebuild::moved_operands(ExprId old_id) const
+{
+    std::vector<ExprId> operands;
+    for (const ExprId operand : old().graph.operands(old_id)) operands.push_back(moved(operand));
+    return operands;
+}
+
+ExprId Rebuild::copy(ExprId old_id)
+{
+    // An input keeps its index until `finish` renumbers: old inputs come first among the slots.
+    if (old().graph[old_id].op == Op::call) return call(old_id);
+    return graph.copy(old().graph, old_id, moved_operands(old_id));
+}
+
+ExprId Rebuild::call(ExprId old_id)
+{
+    const Expr& expr = old().graph[old_id];
+    const FunctionId callee_id{expr.aux};
+    const Function& callee = rebuilt(callee_id);
+    const auto& wires = (*wires_)[callee_id.index];
+    const auto old_operands = old().graph.operands(old_id);
+
+    std::vector<ExprId> operands;
+    for (std::size_t i = 0; i < wires.size(); ++i) {
+        const Input& wanted = callee.inputs[i];
+        switch (wires[i].kind) {
+        case Wire::Kind::kept: operands.push_back(moved(old_operands[wires[i].index])); break;
+        case Wire::Kind::gained: operands.push_back(input(wanted.origin, wanted.which)); break;
+        case Wire::Kind::complement:
+            operands.push_back(complement(old_operands[wires[i].index]));
+            break;
+        }
+    }
+    return graph.call(callee_id, callee.type(), operands, old().graph.span(old_id));
+}
+
+ExprId Rebuild::input(Origin origin, std::uint32_t which)
+{
+    const auto found = std::ranges::find_if(slots_, [&](const Slot& slot) {
+        return slot.input.origin == origin && slot.input.which == which;
+    });
+    const auto index = static_cast<std::uint32_t>(found - slots_.begin());
+    if (found == slots_.end())
+        slots_.push_back({gained_input(*old_module_, origin, which), {Wire::Kind::gained, 0}});
+    return graph.input(index, slots_[index].input.type);
+}
+
+ExprId Rebuild::input(GeometryField field)
+{
+    return input(Origin::geometry, static_cast<std::uint32_t>(field));
+}
+
+ExprId Rebuild::complement_input(std::uint32_t index)
+{
+    assert(!is_root_ && "a root keeps the signature it was declared with");
+    const auto found = std::ranges::find_if(slots_, [&](const Slot& slot) {
+        return slot.wire.kind == Wire::Kind::complement && slot.wire.index == index;
+    });
+    const auto at = static_cast<std::uint32_t>(found - slots_.begin());
+    if (found == slots_.end()) {
+        Input added = old().inputs[index];
+        added.range = {1 - added.range.high, 1 - added.range.low};
+        added.name = "one_minus_" + added.name;
+        while (std::ranges::any_of(slots_,
+                                   [&](const Slot& slot) { return slot.input.name == added.name; }))
+            added.name += "_";
+        slots_.push_back({added, {Wire::Kind::complement, index}});
+    }
+    return graph.input(at, slots_[at].input.type);
+}
+
+void Rebuild::place(ExprId old_id, ExprId new_id)
+{
+    assert(graph[new_id].type == old().graph[old_id].type);
+    moved_[old_id] = new_id;
+    // What the author called the old expression names the new one, unless it is plain already.
+    if (shape(graph[new_id].op) != Shape::leaf) graph.set_name(new_id, old().graph.name_of(old_id));
+}
+
+/// Old inputs keep their order. A complement follows what it complements, and a gained field
+/// goes among its like by field number; the first field of its kind goes before the parameters,
+/// which come last by number.
+std::vector<std::uint32_t> Rebuild::canonical_order(const std::vector<bool>& wanted) const
+{
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t i = 0; i < old().inputs.size(); ++i) order.push_back(i);
+    for (auto added = static_cast<std::uint32_t>(order.size()); added < slots_.size(); ++added) {
+        const Slot& slot = slots_[added];
+        const auto belongs_before = [&](std::uint32_t other) {
+            const Input& input = slots_[other].input;
+            if (input.origin == slot.input.origin) return input.which > slot.input.which;
+            return input.origin == Origin::parameter;
+        };
+        auto position = order.end();
+        if (slot.wire.kind == Wire::Kind::complement) {
+            position = std::ranges::find(order, slot.wire.index) + 1;
+        } else {
+            // After the last of its like that it follows, else before the first it precedes.
+            const auto last_like = std::find_if(order.rbegin(), order.rend(), [&](auto other) {
+                return slots_[other].input.origin == slot.input.origin && !belongs_before(other);
+            });
+            position = last_like != order.rend() ? last_like.base()
+                                                 : std::ranges::find_if(order, belongs_before);
+        }
+        order.insert(position, added);
+    }
+    std::erase_if(order, [&](std::uint32_t index) { return !wanted[index]; });
+    return order;
+}
+
+std::pair<Function, std::vector<Wire>> Rebuild::finish()
+{
+    const ExprId result = moved(old().result);
+    const auto uses = use_counts(graph, result);
+    if (finished) finished(uses);
+
+    std::vector<bool> wanted(slots_.size());
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+        wanted[i] = is_root_ && slots_[i].input.origin == Origin::argument;
+    for (const ExprId id : graph.ids())
+        if (graph[id].op == Op::input && uses[id] > 0) wanted[graph[id].aux] = true;
+
+    Function function = old();
+    function.inputs.clear();
+    std::vector<Wire> wires;
+    std::vector<std::uint32_t> place_of(slots_.size());
+    for (const std::uint32_t index : canonical_order(wanted)) {
+        place_of[index] = static_cast<std::uint32_t>(function.inputs.size());
+        function.inputs.push_back(slots_[index].input);
+        wires.push_back(slots_[index].wire);
+    }
+
+    function.graph = {};
+    Facts<Expr, ExprId> compacted(graph.size());
+    std::vector<ExprId> operands;
+    for (const ExprId id : graph.ids()) {
+        if (uses[id] == 0) continue;
+        if (graph[id].op == Op::input) {
+            compacted[id] =
+                function.graph.input(place_of[graph[id].aux], graph[id].type, graph.span(id));
+            continue;
+        }
+        operands.clear();
+        for (const ExprId operand : graph.operands(id)) operands.push_back(compacted[operand]);
+        compacted[id] = function.graph.copy(graph, id, operands);
+    }
+    function.result = compacted[result];
+    return {std::move(function), std::move(wires)};
+}
+
+std::vector<bool> root_flags(const Module& module)
+{
+    std::vector<bool> flags(module.functions.size());
+    for (const FunctionId id : module.roots()) flags[id.index] = true;
+    return flags;
+}
+
+Module rewrite(const Module& module, const Pass& pass)
+{
+    const std::vector<bool> is_root = root_flags(module);
+    Module result = module;
+    result.functions.clear();
+    std::vector<std::vector<Wire>> wires;
+    for (std::size_t i = 0; i < module.functions.size(); ++i) {
+        Rebuild rebuild{module, result, wires, FunctionId{i}, is_root[i]};
+        const Step step = pass(rebuild);
+        for (const ExprId id : rebuild.old().graph.ids()) rebuild.place(id, step(id));
+        auto [function, function_wires] = rebuild.finish();
+        result.functions.push_back(std::move(function));
+        wires.push_back(std::move(function_wires));
+    }
+    return result;
+}
+
+bool same_graphs(const Module& a, const Module& b)
+{
+    const auto same = [](const Function& f, const Function& g) {
+        const auto same_input = [](const Input& x, const Input& y) {
+            return x.name == y.name && x.type == y.type && x.origin == y.origin &&
+                   x.which == y.which;
+        };
+        return f.name == g.name && f.result == g.result &&
+               std::ranges::equal(f.inputs, g.inputs, same_input) && dump(f.graph) == dump(g.graph);
+    };
+    return std::ranges::equal(a.functions, b.functions, same);
+}
+
+}  // namespace lobe::optimize

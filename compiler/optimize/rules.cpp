@@ -1,0 +1,201 @@
+#include "optimize/rules.h"
+
+#include "evaluate/run.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lobe::optimize {
+
+using namespace ir;
+using evaluate::Interval;
+
+namespace {
+
+constexpr std::array rule_table{
+    Rule{"one_minus_cos_h", Source::cos_h, 1, false, "k - k cos_h", "k one_minus_cos_h",
+         "cos_h rounds to 1 for all h within 2e-4 rad of n, and lobes peak there"},
+    Rule{"sine_squared_h", Source::cos_h, 2, false, "k - k cos_h^2", "k sin2_h",
+         "the exponent of Beckmann's lobe: 1.2e5 ulp without it [facts: hard case 23]"},
+    Rule{"blend_h", Source::cos_h, 0, true, "cos_h^2 (a - 1) + 1", "a + (1 - a) sin2_h",
+         "the denominator of GGX at its peak: relative error above 1 without it, and the "
+         "replacement is provably at least a [facts: hard cases 1 to 4]"},
+    Rule{"one_minus_cos_d", Source::cos_d, 1, false, "k - k cos_d", "k one_minus_cos_d",
+         "Schlick's base, whose fifth power multiplies its relative error by five"},
+    Rule{"sine_squared_d", Source::cos_d, 2, false, "k - k cos_d^2",
+         "k one_minus_cos_d (1 + cos_d)", "as one_minus_cos_d"},
+    Rule{"blend_d", Source::cos_d, 0, true, "cos_d (a - 1) + 1", "a + (1 - a) one_minus_cos_d",
+         "as blend_h, where light and view coincide"},
+    Rule{"one_minus_argument", Source::argument, 1, false, "k - k x", "k one_minus_x",
+         "the caller has the vectors and the callee does not"},
+    Rule{"sine_squared_argument", Source::argument, 2, false, "k - k x^2", "k one_minus_x (1 + x)",
+         "as one_minus_argument"},
+    Rule{"blend_argument", Source::argument, 0, true, "x^2 (a - 1) + 1",
+         "a + (1 - a) one_minus_x (1 + x)", "as one_minus_argument"},
+    Rule{"difference_of_squares", Source::factored, 2, false, "k - k x^2", "k (1 - x)(1 + x)",
+         "x^2 rounds before the subtraction; 1 - x is exact from 1/2 to 2 (Sterbenz)"},
+    Rule{"blend_of_squares", Source::factored, 2, true, "x^2 (a - 1) + 1",
+         "a + (1 - a)(1 - x)(1 + x)",
+         "GGX from a cosine alone: 7 ulp of what the cosine itself allows"},
+};
+
+/// Where x stays away from 1 and -1 the subtraction loses less than one bit, and costs nothing.
+bool reaches_one(const Interval& range, int degree)
+{
+    const double largest = std::max(std::fabs(range.low), std::fabs(range.high));
+    const bool spans_zero = range.low <= 0 && range.high >= 0;
+    const double smallest = spans_zero ? 0 : std::min(std::fabs(range.low), std::fabs(range.high));
+    return std::pow(largest, degree) > 0.5 && std::pow(smallest, degree) < 2;
+}
+
+bool opposite(const Interval& a, const Interval& b)
+{
+    const bool both_positive = a.low >= 0 && b.low >= 0;
+    const bool both_negative = a.high <= 0 && b.high <= 0;
+    return !both_positive && !both_negative;
+}
+
+class Matcher {
+public:
+    explicit Matcher(const Subject& given)
+        : subject_{given}, graph_{given.function->graph}, users_(graph_.size()),
+          matches_(graph_.size())
+    {
+        for (const ExprId id : graph_.ids())
+            for (const ExprId operand : graph_.operands(id)) users_[operand].push_back(id);
+    }
+
+    Facts<Expr, std::optional<Match>> run()
+    {
+        // From the result down: whether a factored square is worth it depends on where it goes.
+        for (std::size_t i = graph_.size(); i-- > 0;)
+            if (is_candidate(ExprId{i})) matches_[ExprId{i}] = best(ExprId{i});
+        return std::move(matches_);
+    }
+
+private:
+    bool is_candidate(ExprId id) const
+    {
+        if (graph_[id].type != Type::scalar || subject_.sums[id].size() < 2) return false;
+        switch (graph_[id].op) {
+        case Op::add:
+        case Op::subtract:
+        case Op::lerp: return true;
+        case Op::multiply:  // (1 - x)(1 + x)
+            return std::ranges::all_of(graph_.operands(id), [&](ExprId operand) {
+                return subject_.sums[operand].size() == 2;
+            });
+        default: return false;
+        }
+    }
+
+    std::optional<Match> best(ExprId id) const
+    {
+        std::vector<ExprId> variables;
+        for (const Monomial& monomial : subject_.sums[id])
+            for (const ExprId factor : monomial.factors)
+                if (std::ranges::find(variables, factor) == variables.end())
+                    variables.push_back(factor);
+        // The best source first; among equals the first written.
+        std::ranges::stable_sort(variables, {}, [&](ExprId variable) { return source(variable); });
+        for (const ExprId variable : variables)
+            for (const int degree : {2, 1})
+                if (auto match = fit(id, variable, degree)) return match;
+        return std::nullopt;
+    }
+
+    Source source(ExprId variable) const
+    {
+        const Expr& expr = graph_[variable];
+        if (expr.op != Op::input) return Source::factored;
+        const Input& input = subject_.function->inputs[expr.aux];
+        if (input.origin == Origin::geometry) {
+            const auto field = static_cast<GeometryField>(input.which);
+            if (field == GeometryField::cos_h) return Source::cos_h;
+            if (field == GeometryField::cos_d) return Source::cos_d;
+        }
+        return subject_.complemented[expr.aux] ? Source::argument : Source::factored;
+    }
+
+    std::optional<Match> fit(ExprId id, ExprId variable, int degree) const
+    {
+        const Source from = source(variable);
+        if (from == Source::factored && degree == 1) return std::nullopt;  // 1 - x is itself
+        if (!reaches_one(subject_.ranges[variable], degree)) return std::nullopt;
+
+        const auto parts = split(subject_.sums[id], variable, degree);
+        if (!parts || parts->constant.empty()) return std::nullopt;
+        const auto range = [&](const Sum& sum) { return bounds(sum, subject_.ranges); };
+        if (!opposite(range(parts->constant), range(parts->slope))) return std::nullopt;
+
+        Match match{nullptr, variable, degree, add(parts->constant, parts->slope),
+                    negate(parts->slope)};
+        const bool cancels = match.rest.size() + 2 <= parts->constant.size() + parts->slope.size();
+        if (!cancels || opposite(range(match.rest), range(match.slope))) return std::nullopt;
+        // Beyond 1 the factor 1 - x^d changes sign, and a rest would meet it from the other side.
+        const Interval& x = subject_.ranges[variable];
+        if (!match.rest.empty() && (x.high > 1 || x.low < (degree == 2 ? -1 : 0)))
+            return std::nullopt;
+        // As (1 - x)(1 + x) stands, or is about to.
+        if (from == Source::factored && (graph_[id].op == Op::multiply || harmless(id, variable)))
+            return std::nullopt;
+
+        const bool blend = !match.rest.empty();
+        const auto rule = std::ranges::find_if(rule_table, [&](const Rule& candidate) {
+            return candidate.source == from && candidate.blend == blend &&
+                   (candidate.degree == 0 || candidate.degree == degree);
+        });
+        if (rule == rule_table.end()) return std::nullopt;
+        match.rule = &*rule;
+        return match;
+    }
+
+    /// True when the rounding of x^2 in this expression is lost in every sum it enters: in
+    /// a + (1 - a) s with a = x^2, what 1 - a lacks near a = 1 is nothing beside a. Also when the
+    /// sum it enters is rewritten and does not read it any more.
+    bool harmless(ExprId id, ExprId variable) const
+    {
+        if (id == subject_.function->result || users_[id].empty()) return false;
+        return std::ranges::all_of(users_[id], [&](ExprId user) {
+            if (matches_[user]) return true;
+            switch (graph_[user].op) {
+            case Op::multiply:
+            case Op::negate: return graph_[user].type == Type::scalar && harmless(user, variable);
+            case Op::add:
+            case Op::subtract:
+            case Op::lerp: {
+                if (graph_[user].type != Type::scalar) return false;
+                const auto parts = split(subject_.sums[user], variable, 2);
+                return parts && !parts->constant.empty() &&
+                       !opposite(bounds(parts->constant, subject_.ranges),
+                                 bounds(parts->slope, subject_.ranges));
+            }
+            default: return false;
+            }
+        });
+    }
+
+    const Subject& subject_;
+    const Graph& graph_;
+    Facts<Expr, std::vector<ExprId>> users_;
+    Facts<Expr, std::optional<Match>> matches_;
+};
+
+}  // namespace
+
+std::span<const Rule> rules() { return rule_table; }
+
+Subject subject(const Module& module, const Function& function, std::vector<bool> complemented)
+{
+    return {&function, expand_sums(function.graph),
+            evaluate::ranges(module, function, evaluate::declared_ranges(function)),
+            std::move(complemented)};
+}
+
+Facts<Expr, std::optional<Match>> match_rules(const Subject& subject)
+{
+    return Matcher{subject}.run();
+}
+
+}  // namespace lobe::optimize

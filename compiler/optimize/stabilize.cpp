@@ -1,0 +1,187 @@
+// Cancelling sums replaced by sums that only add; rules.h says which and why.
+//
+// Over the real numbers the result is the same function of unit vectors: the stable fields equal
+// what they replace by Lagrange's identity and the half-angle formula. An evaluation from
+// rounded vectors changes, for the better: that is the point.
+//
+// Only rules that remove a cancellation live here. Nothing is made faster, and a sum that the
+// ranges prove free of cancellation is left as it was written.
+#include "optimize/stabilize.h"
+
+#include "optimize/complement.h"
+#include "optimize/optimize.h"
+#include "optimize/rewrite.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace lobe::optimize {
+
+using namespace ir;
+
+namespace {
+
+/// Builds replacements in the new graph out of what old factors became.
+class Builder {
+public:
+    Builder(Rebuild& rebuild, const Subject& subject) : rebuild_{rebuild}, subject_{subject} {}
+
+    /// rest + slope * (1 - variable^degree)
+    ExprId replacement(const Match& match, ExprId before)
+    {
+        ExprId product = complement(match);
+        const bool negative = std::ranges::all_of(
+            match.slope, [](const Monomial& monomial) { return monomial.coefficient < 0; });
+        const Sum slope = negative ? negate(match.slope) : match.slope;
+        if (slope.size() != 1 || !slope[0].factors.empty() || slope[0].coefficient != 1)
+            product = apply(Op::multiply, sum(slope, before), product);
+        if (match.rest.empty()) return negative ? graph().apply(Op::negate, {product}) : product;
+        const ExprId rest = sum(match.rest, before);
+        return apply(negative ? Op::subtract : Op::add, rest, product);
+    }
+
+private:
+    Graph& graph() { return rebuild_.graph; }
+    ExprId apply(Op op, ExprId a, ExprId b) { return graph().apply(op, {a, b}); }
+
+    /// 1 - variable^degree from its best source.
+    ExprId complement(const Match& match)
+    {
+        const ExprId x = rebuild_.moved(match.variable);
+        const ExprId one = graph().literal("1");
+        const auto squared = [&](ExprId one_minus_x) {
+            return apply(Op::multiply, one_minus_x, apply(Op::add, one, x));
+        };
+        switch (match.rule->source) {
+        case Source::cos_h:
+            return rebuild_.input(match.degree == 2 ? GeometryField::sin2_h
+                                                    : GeometryField::one_minus_cos_h);
+        case Source::cos_d: {
+            const ExprId field = rebuild_.input(GeometryField::one_minus_cos_d);
+            return match.degree == 2 ? squared(field) : field;
+        }
+        case Source::argument: {
+            const std::uint32_t index = rebuild_.old().graph[match.variable].aux;
+            const ExprId argument = rebuild_.complement_input(index);
+            return match.degree == 2 ? squared(argument) : argument;
+        }
+        case Source::factored: return squared(apply(Op::subtract, one, x));
+        }
+        return {};
+    }
+
+    /// A sum in the new graph: the expression it already was, if one before `before` is this
+    /// sum, else what adds first and then subtracts.
+    ExprId sum(const Sum& wanted, ExprId before)
+    {
+        if (const auto existing = find(wanted, before)) return *existing;
+        std::optional<ExprId> result;
+        for (const bool positive : {true, false})
+            for (const Monomial& monomial : wanted) {
+                if ((monomial.coefficient > 0) != positive) continue;
+                const ExprId part = product(monomial, before);
+                if (!result)
+                    result = positive ? part : graph().apply(Op::negate, {part});
+                else
+                    result = apply(positive ? Op::add : Op::subtract, *result, part);
+            }
+        assert(result && "a zero sum is not built");
+        return *result;
+    }
+
+    /// |coefficient| * factors
+    ExprId product(const Monomial& monomial, ExprId before)
+    {
+        const double coefficient = std::fabs(monomial.coefficient);
+        if (monomial.factors.empty()) return graph().literal(coefficient);
+        std::optional<ExprId> result = find({{1, monomial.factors}}, before);
+        if (!result)
+            for (const ExprId factor : monomial.factors) {
+                const ExprId moved = rebuild_.moved(factor);
+                result = result ? apply(Op::multiply, *result, moved) : moved;
+            }
+        if (coefficient == 1) return *result;
+        return apply(Op::multiply, graph().literal(coefficient), *result);
+    }
+
+    std::optional<ExprId> find(const Sum& wanted, ExprId before)
+    {
+        const auto same = [](const Monomial& a, const Monomial& b) {
+            return a.coefficient == b.coefficient && a.factors == b.factors;
+        };
+        for (std::size_t i = 0; i < before.index; ++i)
+            if (rebuild_.old().graph[ExprId{i}].type == Type::scalar &&
+                std::ranges::equal(subject_.sums[ExprId{i}], wanted, same))
+                return rebuild_.moved(ExprId{i});
+        return std::nullopt;
+    }
+
+    Rebuild& rebuild_;
+    const Subject& subject_;
+};
+
+/// One minus an operand, for a callee that asks for it.
+ExprId complement_operand(Rebuild& rebuild, const std::vector<bool>& complemented, ExprId operand)
+{
+    const Graph& old = rebuild.old().graph;
+    if (old[operand].op == Op::input) {
+        const std::uint32_t index = old[operand].aux;
+        if (const auto field = stable_field(rebuild.old().inputs[index]))
+            return rebuild.input(*field);
+        if (complemented[index]) return rebuild.complement_input(index);
+    }
+    if (const auto inner = one_minus(old, operand)) return rebuild.moved(*inner);
+    return rebuild.graph.apply(Op::subtract, {rebuild.graph.literal("1"), rebuild.moved(operand)});
+}
+
+Module stabilize_once(const Module& module, std::vector<Application>& log)
+{
+    const Complements complements = find_complements(module);
+    return rewrite(module, [&](Rebuild& rebuild) -> Step {
+        const std::vector<bool>& complemented = complements[rebuild.id().index];
+        rebuild.complement = [&rebuild, &complemented](ExprId operand) {
+            return complement_operand(rebuild, complemented, operand);
+        };
+        auto found = subject(rebuild.old_module(), rebuild.old(), complemented);
+        auto matches = match_rules(found);
+        // A sum inside a sum that was rewritten is dead; only what lives was applied.
+        const auto built = std::make_shared<std::vector<std::pair<ExprId, Application>>>();
+        rebuild.finished = [&log, built](const Facts<Expr, int>& uses) {
+            for (const auto& [id, application] : *built)
+                if (uses[id] > 0) log.push_back(application);
+        };
+        return
+            [&rebuild, built, known = std::move(found), matches = std::move(matches)](ExprId id) {
+                if (!matches[id]) return rebuild.copy(id);
+                const ExprId result = Builder{rebuild, known}.replacement(*matches[id], id);
+                const Span span = rebuild.old().graph.span(id);
+                built->push_back({result, {matches[id]->rule, rebuild.id(), span}});
+                return result;
+            };
+    });
+}
+
+}  // namespace
+
+Module stabilize(const Module& module, std::vector<Application>& log)
+{
+    // What one round builds, the next may still improve: a factor 1 - a that was no expression
+    // before. Every rule takes a cancellation away and adds none, so this ends.
+    constexpr int most_rounds = 8;
+    Module current = module;
+    for (int round = 0; round < most_rounds; ++round) {
+        Module next = stabilize_once(current, log);
+        if (same_graphs(current, next)) return next;
+        current = std::move(next);
+    }
+    return current;
+}
+
+Module stabilize(const Module& module)
+{
+    std::vector<Application> log;
+    return stabilize(module, log);
+}
+
+}  // namespace lobe::optimize
