@@ -43,6 +43,7 @@ ir::Module compile(const std::string& path, const std::string& text)
 }  // namespace
 
 ir::Module module_of(const std::string& text) { return compile("test.lobe", text); }
+ir::Module compiled(const std::string& text) { return middle(module_of(text)); }
 
 const ir::Module& definition(const std::string& name)
 {

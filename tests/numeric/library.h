@@ -20,6 +20,8 @@ const ir::Module& optimized(const std::string& name);
 /// The module that a text means, which may import the shipped ones. Fails the test, with the
 /// diagnostics, if the text has errors.
 ir::Module module_of(const std::string& text);
+/// `module_of` after every pass.
+ir::Module compiled(const std::string& text);
 
 /// Named columns of equal length.
 using Points = std::vector<std::pair<std::string, std::vector<double>>>;
