@@ -199,6 +199,17 @@ bool Parser::starts_item(std::size_t position) const
     });
 }
 
+bool Parser::at_likely_item() const
+{
+    const Token& token = current();
+    if (token.kind != TokenKind::identifier || !token.first_on_line) return false;
+    const bool unindented = token.begin == 0 || source_.text()[token.begin - 1] == '\n';
+    const TokenKind after = ahead(2).kind;
+    return unindented && ahead(1).kind == TokenKind::identifier &&
+           (after == TokenKind::left_parenthesis || after == TokenKind::left_brace ||
+            after == TokenKind::colon || after == TokenKind::assign);
+}
+
 bool Parser::accept(TokenKind kind)
 {
     if (!at(kind)) return false;
@@ -237,7 +248,12 @@ bool Parser::expect_word(std::string_view word, std::string_view what)
 void Parser::expect_closing(TokenKind kind, const Token& open, std::string_view what)
 {
     if (failed_ || accept(kind)) return;
-    const bool over = at(TokenKind::end) || at_item() || closes(current().kind);
+    // `(` … at the end of a line, and then `name =`: that name is the next output, not an operand.
+    const bool read_too_far = at(TokenKind::assign) && kind != TokenKind::right_brace &&
+                              previous().kind == TokenKind::identifier && previous().first_on_line;
+    if (read_too_far) --position_;
+    const bool over = read_too_far || at(TokenKind::end) || at_item() || closes(current().kind) ||
+                      (at(TokenKind::word_let) && kind != TokenKind::right_brace);
     Diagnostic result;
     if (over) {
         result.code = Code::unclosed_bracket;
@@ -286,7 +302,7 @@ void Parser::recover()
 {
     failed_ = false;
     in_then_ = false;
-    while (!at(TokenKind::end) && !at_item()) advance();
+    while (!at(TokenKind::end) && !at_item() && !at_likely_item()) advance();
 }
 
 void Parser::recover_in_block(bool outputs)

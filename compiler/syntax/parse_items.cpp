@@ -29,6 +29,7 @@ Diagnostic misplaced(const Span& span, std::string message)
 void Parser::parse_module()
 {
     tree_.header = take_comments();
+    tree_.module_blank_before = current().blank_before && !tree_.header.empty();
     if (at(TokenKind::end)) {
         tree_.footer = std::move(tree_.header);
         tree_.header.clear();

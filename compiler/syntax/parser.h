@@ -41,6 +41,7 @@ private:
     bool at_word(std::string_view word) const;
     bool at_item() const { return !failed_ && starts_item(position_); }
     bool starts_item(std::size_t position) const;
+    bool at_likely_item() const;  ///< looks like an item with a misspelt keyword
     bool accept(TokenKind kind);
     bool expect(TokenKind kind, std::string_view what);
     bool expect_word(std::string_view word, std::string_view what);

@@ -217,6 +217,7 @@ struct Tree {
     std::uint32_t source = 0;     ///< index into Sources
     std::vector<Comment> header;  ///< comments before `module`
     std::optional<Identifier> module;
+    bool module_blank_before = false;  ///< an empty line between the header and `module`
     std::vector<Item> items;
     std::vector<Comment> footer;  ///< comments after the last item
     std::vector<Expression> expressions;

@@ -1,0 +1,38 @@
+// Expressions to canonical text; inside `syntax` only.
+#pragma once
+
+#include "syntax/tree.h"
+
+#include <string>
+#include <vector>
+
+namespace lobe::syntax {
+
+/// Writes expressions with as few parentheses as their meaning and a reader need, on one line
+/// where it fits and broken before operators and after commas where not.
+class ExpressionWriter {
+public:
+    explicit ExpressionWriter(const Tree& tree);
+
+    /// Columns that the expression takes on one line.
+    std::size_t width(ExpressionId id) const { return widths_[id.index]; }
+
+    /// On one line.
+    std::string flat(ExpressionId id) const;
+
+    /// Starting in `column`; further lines are indented by `indent` or more.
+    std::string broken(ExpressionId id, std::size_t column, std::size_t indent) const;
+
+    static constexpr std::size_t widest_line = 100;
+
+private:
+    class Layout;
+
+    const Tree& tree_;
+    std::vector<std::size_t> widths_;  ///< of each expression, without its own parentheses
+};
+
+/// Characters of a text in UTF-8.
+std::size_t character_count(std::string_view text);
+
+}  // namespace lobe::syntax
