@@ -1,9 +1,9 @@
 // NoContraction on all floating-point arithmetic of a SPIR-V module.
 //
-// What `precise` on every variable would do: neither spirv-opt nor the driver may re-associate,
-// fuse or cancel what carries the decoration, so a device computes the operations that the text
-// wrote, in that order. The decorations go to the end of the annotations; everything else stays
-// as it is, ids included.
+// What `precise` on every variable would do, and to dot products too, which `precise` leaves out:
+// neither spirv-opt nor the driver may re-associate, fuse or cancel what carries the decoration,
+// so a device computes the operations that the text wrote, in that order. The decorations go to
+// the end of the annotations; everything else stays as it is, ids included.
 #include "verify/judge.h"
 
 #include <glslang/SPIRV/spirv.hpp>

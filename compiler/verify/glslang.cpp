@@ -6,11 +6,11 @@
 // the order the text has them.
 #include "verify/judge.h"
 
-#include <glslang/MachineIndependent/localintermediate.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <optional>
@@ -56,18 +56,21 @@ int line_of(std::string_view message)
     return error == std::errc{} ? line : 0;
 }
 
+/// What the messages of the front ends, of the linker and of the SPIR-V generator begin with.
 bool starts_message(std::string_view line)
 {
-    return line.starts_with("ERROR: ") || line.starts_with("WARNING: ") ||
-           line.starts_with("INTERNAL ERROR") || line.starts_with("UNIMPLEMENTED") ||
-           line.starts_with("NOTE: ") ||
-           (line.starts_with('(') && line.size() > 1 && starts_with_digit(line.substr(1)));
+    for (const std::string_view severity :
+         {"ERROR: ", "WARNING: ", "NOTE: ", "INTERNAL ERROR", "UNIMPLEMENTED",
+          "error: ", "warning: ", "Missing functionality: ", "TBD functionality: "})
+        if (line.starts_with(severity)) return true;
+    return line.starts_with('(') && starts_with_digit(line.substr(1));
 }
 
-/// The count that ends a log says nothing that the messages before it do not.
+/// What ends a log says nothing that the messages before it do not.
 bool is_summary(std::string_view line)
 {
-    return line.starts_with("ERROR: ") && line.find("compilation errors.") != line.npos;
+    return line.starts_with("ERROR: ") && (line.find("compilation errors.") != line.npos ||
+                                           line.ends_with(": '' : compilation terminated"));
 }
 
 /// Splits a log into messages; a line that starts none continues the one before it.
@@ -89,7 +92,8 @@ void append_log(std::string_view log, std::vector<Message>& messages)
 
 bool is_warning(const Message& message)
 {
-    return message.text.starts_with("WARNING: ") || message.text.starts_with("NOTE: ");
+    return message.text.starts_with("WARNING: ") || message.text.starts_with("NOTE: ") ||
+           message.text.starts_with("warning: ");
 }
 
 /// The HLSL parser never recovers: what follows its first error is about the wreckage.
@@ -112,15 +116,60 @@ enum class Rules {
     opengl
 };
 
-/// A text without `#version`, or with that of the other language, is accepted by glslang as
-/// whatever it says it is. We know what it should be.
-std::optional<Message> wrong_dialect(const glslang::TIntermediate& intermediate, Dialect dialect)
+/// What the first line of code of a GLSL or ESSL text says it is.
+struct Version {
+    int number = 0;
+    bool is_essl = false;
+};
+
+std::string_view without_blanks(std::string_view text)
+{
+    const std::size_t start = text.find_first_not_of(" \t\r\n");
+    return start == text.npos ? std::string_view{} : text.substr(start);
+}
+
+std::string_view without_comments(std::string_view text)
+{
+    for (text = without_blanks(text);; text = without_blanks(text)) {
+        const bool is_line = text.starts_with("//");
+        if (!is_line && !text.starts_with("/*")) return text;
+        const std::size_t end = is_line ? text.find('\n', 2) : text.find("*/", 2);
+        text.remove_prefix(end == text.npos ? text.size() : end + (is_line ? 1 : 2));
+    }
+}
+
+std::optional<Version> stated_version(std::string_view text)
+{
+    constexpr std::string_view directive = "#version";
+    text = without_comments(text);
+    if (!text.starts_with(directive)) return std::nullopt;
+    text = text.substr(directive.size());
+    text = without_blanks(text.substr(0, text.find('\n')));
+    Version version;
+    const auto [end, error] =
+        std::from_chars(text.data(), text.data() + text.size(), version.number);
+    if (error != std::errc{}) return std::nullopt;
+    version.is_essl =
+        version.number == 100 ||
+        text.substr(static_cast<std::size_t>(end - text.data())).find("es") != text.npos;
+    return version;
+}
+
+/// glslang takes a text for whatever it says it is, and for something of its own choice if it
+/// says nothing. We know what it should be.
+std::optional<Message> misstated_version(std::string_view text, Dialect dialect, Stage stage)
 {
     if (dialect == Dialect::hlsl) return std::nullopt;
-    const bool is_essl = intermediate.getProfile() == EEsProfile;
-    if (is_essl == (dialect == Dialect::essl)) return std::nullopt;
-    return Message{1, is_essl ? "the text says it is ESSL, GLSL was expected"
-                              : "the text says it is GLSL, ESSL was expected"};
+    const auto version = stated_version(text);
+    if (!version) return Message{0, "the text does not begin with `#version`"};
+    if (version->is_essl != (dialect == Dialect::essl))
+        return Message{0, version->is_essl ? "the text says it is ESSL, GLSL was expected"
+                                           : "the text says it is GLSL, ESSL was expected"};
+    // Asked for a compute shader of a version without profiles, glslang prints its built-ins.
+    constexpr int first_with_profiles = 150;
+    if (stage == Stage::compute && !version->is_essl && version->number < first_with_profiles)
+        return Message{0, "compute shaders need `#version 430` or higher"};
+    return std::nullopt;
 }
 
 Verdict judge(std::string_view text, Dialect dialect, Stage stage, std::string_view entry,
@@ -128,6 +177,10 @@ Verdict judge(std::string_view text, Dialect dialect, Stage stage, std::string_v
 {
     initialize_once();
     Verdict verdict;
+    if (auto message = misstated_version(text, dialect, stage)) {
+        verdict.messages.push_back(std::move(*message));
+        return verdict;
+    }
     const bool is_hlsl = dialect == Dialect::hlsl;
     const EShLanguage language = stage_of(stage);
     glslang::TShader shader{language};
@@ -154,9 +207,8 @@ Verdict judge(std::string_view text, Dialect dialect, Stage stage, std::string_v
     }
     const auto options = static_cast<EShMessages>(wanted);
 
-    // Versions that the language has when a text states none.
-    const int unstated = dialect == Dialect::essl ? 100 : is_hlsl ? 500 : 110;
-    bool ok = shader.parse(GetDefaultResources(), unstated, false, options);
+    constexpr int unstated_version = 100;  // of no use: HLSL has its own, and others state it
+    bool ok = shader.parse(GetDefaultResources(), unstated_version, false, options);
     append_log(shader.getInfoLog(), verdict.messages);
 
     // The program must go before the shader, whose memory it uses.
@@ -166,18 +218,17 @@ Verdict judge(std::string_view text, Dialect dialect, Stage stage, std::string_v
         ok = program.link(options) && (!is_hlsl || program.mapIO());
         append_log(program.getInfoLog(), verdict.messages);
     }
-    if (ok) {
-        const glslang::TIntermediate& intermediate = *program.getIntermediate(language);
-        if (auto message = wrong_dialect(intermediate, dialect)) {
-            verdict.messages.push_back(std::move(*message));
-            ok = false;
-        } else if (rules == Rules::vulkan) {
-            glslang::SpvOptions spv;
-            spv.disableOptimizer = true;
-            spv::SpvBuildLogger logger;
-            glslang::GlslangToSpv(intermediate, verdict.spirv, &logger, &spv);
-            append_log(logger.getAllMessages(), verdict.messages);
-        }
+    if (ok && rules == Rules::vulkan) {
+        glslang::SpvOptions spv;
+        spv.disableOptimizer = true;
+        spv::SpvBuildLogger logger;
+        glslang::GlslangToSpv(*program.getIntermediate(language), verdict.spirv, &logger, &spv);
+        std::vector<Message> said;
+        append_log(logger.getAllMessages(), said);
+        // SPIR-V that lacks what the text asks for is not SPIR-V of that text.
+        ok = std::ranges::all_of(said, is_warning);
+        if (!ok) verdict.spirv.clear();
+        verdict.messages.insert(verdict.messages.end(), said.begin(), said.end());
     }
     if (is_hlsl) keep_first_error(verdict.messages);
     verdict.accepted = ok;
