@@ -1,10 +1,10 @@
 // A real number of chosen precision: MPFR with value semantics.
 #pragma once
 
+#include <mpfr.h>
+
 #include <string>
 #include <string_view>
-
-#include <mpfr.h>
 
 namespace lobe::evaluate {
 

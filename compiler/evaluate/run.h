@@ -25,7 +25,10 @@ void run(const Tape& tape, Columns<double> inputs, Results<double> outputs, std:
 
 /// binary16: every operation is computed exactly, then rounded to nearest even. Values travel
 /// as floats that are halves. Inputs are rounded first.
-enum class HalfMode { keep_denormals, flush_denormals };
+enum class HalfMode {
+    keep_denormals,
+    flush_denormals
+};
 void run_half(const Tape& tape, HalfMode mode, Columns<float> inputs, Results<float> outputs,
               std::size_t count);
 
@@ -33,7 +36,10 @@ void run(const Tape& tape, Columns<Interval> inputs, Results<Interval> outputs, 
 
 /// The table of the precision a target computes in: fp32 or fp16 of the Vulkan specification,
 /// appendix "Precision and Operation of SPIR-V Instructions".
-enum class Precision { float32, float16 };
+enum class Precision {
+    float32,
+    float16
+};
 void run_acceptance(const Tape& tape, Precision precision, Columns<Acceptance> inputs,
                     Results<Acceptance> outputs, std::size_t count);
 
@@ -41,12 +47,19 @@ void run_acceptance(const Tape& tape, Precision precision, Columns<Acceptance> i
 void run_real(const Tape& tape, int bits, Columns<Real> inputs, Results<Real> outputs,
               std::size_t count);
 
+/// `reals`: the values over the real numbers, rounded outward in double: what a declared range is
+/// proved with. `float32`: what any target may compute too, by the Vulkan precision table, so that
+/// what it excludes cannot be reached by a shader either: what guards are removed with.
+enum class Arithmetic {
+    reals,
+    float32
+};
+
 /// The ranges of every expression of a function whose inputs lie in `inputs` (one per input of
-/// the function, for every component): the hull over components. Sound over the reals, with
-/// float32 rounding of every operation on top, so that what it excludes cannot be reached by a
-/// float32 evaluation either.
+/// the function, for every component): the hull over components.
 Facts<ir::Expr, Interval> ranges(const ir::Module& module, const ir::Function& function,
-                                 std::span<const Interval> inputs);
+                                 std::span<const Interval> inputs,
+                                 Arithmetic arithmetic = Arithmetic::float32);
 
 /// The ranges that the inputs of a function were declared with.
 std::vector<Interval> declared_ranges(const ir::Function& function);

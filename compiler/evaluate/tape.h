@@ -19,34 +19,40 @@ enum class TapeOp : std::uint8_t {
 #undef LOBE_TAPE_OP
 };
 
+int arity(TapeOp op);
+std::string_view name(TapeOp op);
+
+using Slot = std::uint32_t;
+
 struct Instruction {
     TapeOp op{};
-    std::uint16_t result = 0;  ///< slot
-    std::uint16_t a = 0;       ///< slots; those past the arity are 0
-    std::uint16_t b = 0;
-    std::uint16_t c = 0;
+    Slot result = 0;
+    Slot a = 0;  ///< operands; those past the arity are 0
+    Slot b = 0;
+    Slot c = 0;
+    Slot d = 0;
 };
 
 struct Constant {
-    std::uint16_t slot = 0;
+    Slot slot = 0;
     ir::Literal literal;
 };
 
 /// One scalar that goes in: a component of an input of the function. Inputs occupy slots
 /// 0 .. inputs.size() - 1 and stay there.
 struct TapeInput {
-    std::string name;  ///< `roughness`, `f0.r`, `l.x`: also the column name in tables
+    std::string name;         ///< `roughness`, `f0.r`, `l.x`: also the column name in tables
     std::uint32_t input = 0;  ///< index into Function::inputs
     int component = 0;
 };
 
 struct Tape {
     std::vector<TapeInput> inputs;
-    std::vector<Constant> constants;
+    std::vector<Constant> constants;  ///< in the slots after the inputs
     std::vector<Instruction> code;
-    std::vector<std::uint16_t> outputs;     ///< slots of the result's components
+    std::vector<Slot> outputs;              ///< slots of the result's components
     std::vector<std::string> output_names;  ///< `D_GGX`, or `c1.r`, `c1.g`, `c1.b`
-    std::uint16_t slots = 0;
+    Slot slots = 0;
 };
 
 /// The tape of a function of the module, or of an entry point into it. A boolean result is
@@ -54,11 +60,11 @@ struct Tape {
 Tape compile(const ir::Module& module, const ir::Function& function);
 
 /// As `compile`, but every expression of the function's own graph keeps its slots: slot of
-/// component k of expression e is `slots_of[e.index] + k` in `Traced::slots_of`. For range
+/// component k of expression e is `slots_of[e.index][k]` in `Traced::slots_of`. For range
 /// analysis.
 struct Traced {
     Tape tape;
-    std::vector<std::vector<std::uint16_t>> slots_of;  ///< per expression, one per component
+    std::vector<std::vector<Slot>> slots_of;  ///< per expression, one per component
 };
 Traced compile_traced(const ir::Module& module, const ir::Function& function);
 
