@@ -1,6 +1,7 @@
 // Lends lanes to the threads that run shaders, splits what is too much at once, and keeps time.
 #include "device/device.h"
 
+#include "device/declared.h"
 #include "device/lane.h"
 
 #include <fmt/format.h>
@@ -65,17 +66,36 @@ std::span<T> piece(std::span<T> all, std::size_t index, std::size_t length)
     return all.subspan(first, std::min(length, all.size() - first));
 }
 
-/// Whether the module declares OpCapability Float16, which comes among the first instructions.
-bool needs_float16(std::span<const std::uint32_t> spirv)
+/// Why this module cannot be run on this device, as far as it can be known beforehand.
+Failure refusal(std::span<const std::uint32_t> spirv, std::string_view entry,
+                const DeviceFacts& facts)
 {
-    constexpr std::size_t header_words = 5;
-    constexpr std::uint32_t op_capability = 17;
-    constexpr std::uint32_t capability_float16 = 9;
-    for (std::size_t i = header_words; i + 1 < spirv.size(); i += 2) {
-        if (spirv[i] != (2U << 16 | op_capability)) return false;
-        if (spirv[i + 1] == capability_float16) return true;
-    }
-    return false;
+    const auto declared = declared_by(spirv, entry);
+    if (!declared) return "the shader is not SPIR-V";
+    if (!declared->has_entry) return fmt::format("the shader has no compute entry `{}`", entry);
+    if (declared->needs_float16 && !facts.float16)
+        return fmt::format("the shader computes in float16, which `{}` does not", facts.name);
+    return std::nullopt;
+}
+
+/// A dispatch under way in a thread of its own, since a software device computes inside the
+/// submission. The thread keeps the lane alive.
+struct Work {
+    std::thread thread;
+    std::future<Failure> outcome;
+};
+
+Work start(std::shared_ptr<Lane> lane, std::uint32_t groups, std::uint32_t count)
+{
+    std::promise<Failure> promise;
+    auto outcome = promise.get_future();
+    std::thread thread{
+        [lane = std::move(lane), groups, count, promise = std::move(promise)]() mutable {
+            Failure failure = lane->dispatch(groups, count);
+            lane.reset();  // before anyone can know that the work is done
+            promise.set_value(std::move(failure));
+        }};
+    return {std::move(thread), std::move(outcome)};
 }
 
 }  // namespace
@@ -98,13 +118,31 @@ struct Device::State {
     std::mutex mutex;  // of what follows
     std::condition_variable returned;
     std::vector<std::shared_ptr<Lane>> idle;
-    std::size_t lanes = 0;  ///< that exist and are not given up
+    std::size_t lanes = 0;    ///< that exist and are not given up
+    std::vector<Work> stuck;  ///< given up, perhaps still running
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State();
 
     std::shared_ptr<Lane> borrow(std::string& why);
     void give_back(std::shared_ptr<Lane> lane);
     void forget_lane();
-    Failure dispatch(const std::shared_ptr<Lane>& lane, std::uint32_t count, bool& is_stuck) const;
+    Failure dispatch(const std::shared_ptr<Lane>& lane, std::uint32_t count);
 };
+
+/// A driver must not go while it computes. A shader that was given up gets some seconds to end;
+/// after that it will not, and its thread is left behind.
+Device::State::~State()
+{
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds{10};
+    for (Work& work : stuck)
+        if (work.outcome.wait_until(patience) == std::future_status::ready)
+            work.thread.join();
+        else
+            work.thread.detach();
+}
 
 std::shared_ptr<Lane> Device::State::borrow(std::string& why)
 {
@@ -141,23 +179,15 @@ void Device::State::forget_lane()
     returned.notify_one();
 }
 
-/// Waits in another thread, since a software device computes inside the submission. On a timeout
-/// that thread keeps the lane alive and frees it when the shader ends after all.
-Failure Device::State::dispatch(const std::shared_ptr<Lane>& lane, std::uint32_t count,
-                                bool& is_stuck) const
+Failure Device::State::dispatch(const std::shared_ptr<Lane>& lane, std::uint32_t count)
 {
-    const std::uint32_t groups = (count + group_size - 1) / group_size;
-    std::promise<Failure> promise;
-    std::future<Failure> outcome = promise.get_future();
-    std::thread worker{[lane, groups, count, promise = std::move(promise)]() mutable {
-        promise.set_value(lane->dispatch(groups, count));
-    }};
-    if (outcome.wait_for(limits.time) == std::future_status::ready) {
-        worker.join();
-        return outcome.get();
+    Work work = start(lane, (count + group_size - 1) / group_size, count);
+    if (work.outcome.wait_for(limits.time) == std::future_status::ready) {
+        work.thread.join();
+        return work.outcome.get();
     }
-    worker.detach();
-    is_stuck = true;
+    const std::lock_guard lock{mutex};
+    stuck.push_back(std::move(work));
     return fmt::format("the shader did not end within {} ms on `{}`", limits.time.count(),
                        physical.facts.name);
 }
@@ -193,8 +223,7 @@ std::optional<std::string> Device::run(std::span<const std::uint32_t> spirv, std
                                        std::uint32_t count)
 {
     if (count == 0) return std::nullopt;
-    if (needs_float16(spirv) && !facts().float16)
-        return fmt::format("the shader computes in float16, which `{}` does not", facts().name);
+    if (auto why_not = refusal(spirv, entry, facts())) return why_not;
     std::string why;
     const auto portions =
         divide(state_->physical, state_->limits, input.size(), output.size(), count, why);
@@ -202,21 +231,24 @@ std::optional<std::string> Device::run(std::span<const std::uint32_t> spirv, std
     std::shared_ptr<Lane> lane = state_->borrow(why);
     if (!lane) return why;
 
-    bool is_stuck = false;
     Failure failure = lane->load(spirv, entry);
+    bool is_usable = true;
     for (std::uint32_t done = 0, turn = 0; done < count && !failure; ++turn) {
         const std::uint32_t points = std::min(portions->points, count - done);
         const auto results = piece(output, turn, portions->outputs);
         failure = lane->upload(piece(input, turn, portions->inputs), results);
-        if (!failure) failure = state_->dispatch(lane, points, is_stuck);
+        if (!failure) {
+            failure = state_->dispatch(lane, points);
+            is_usable = !failure;
+        }
         if (!failure) lane->download(results);
         done += points;
     }
-    // After a failure the lane's queue may be lost or still at work; a fresh one is not.
-    if (failure)
-        state_->forget_lane();
-    else
+    // A lane whose dispatch failed may be lost or still at work; a fresh one is not.
+    if (is_usable)
         state_->give_back(std::move(lane));
+    else
+        state_->forget_lane();
     return failure;
 }
 
