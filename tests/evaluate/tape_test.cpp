@@ -51,9 +51,9 @@ TEST_CASE("a call is inlined, and what it computes again is shared")
 
     const Tape tape = compile(module, module.functions[1]);
     CHECK(dump(tape) == "s0 = input y\n"
-                        "s2 = square s0\n"
-                        "s2 = add s2 s2\n"
-                        "outer = s2\n");
+                        "s1 = square s0\n"
+                        "s1 = add s1 s1\n"
+                        "outer = s1\n");
 }
 
 TEST_CASE("a vector is its components, and scalars spread over it")
