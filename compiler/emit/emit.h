@@ -12,7 +12,8 @@
 
 namespace lobe::emit {
 
-/// Lines first .. last (from 1) of an artifact were written for this place in a .lobe file.
+/// Lines first .. last (from 1) of an artifact were written for this place in a .lobe file. In an
+/// artifact these are in order and do not overlap; a statement's own line has its own place.
 struct LineOrigin {
     int first = 0;
     int last = 0;
@@ -23,6 +24,7 @@ struct Artifact {
     std::string path;  ///< relative to the output folder: `callisto/ue4/Callisto.ush`
     std::string text;
     std::vector<LineOrigin> origins;
+    std::vector<std::string> calls = {};  ///< statements that call every root once; see `frame`
 };
 
 /// The files of one module for one target.
@@ -49,7 +51,8 @@ Harness harness(const ir::Module& module, const Sources& sources, ir::FunctionId
                 const Target& target, Precision precision);
 
 /// Text that makes an artifact a whole shader for its judge: the version line, the stand-in
-/// prelude of the engine, an empty main. Line counts tell how far the artifact's lines move.
+/// prelude of the engine, a main that calls every root so that nothing is dropped. Line counts tell
+/// how far the artifact's lines move.
 struct Framed {
     std::string text;
     int first_line = 1;  ///< of the artifact within the text

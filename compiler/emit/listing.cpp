@@ -119,7 +119,7 @@ std::vector<Record> Listing::statements(const std::vector<Statement>& statements
 
 std::vector<Record> Listing::comment(const ir::Function& function) const
 {
-    std::vector<std::string> text = fill(function.doc, 92);
+    std::vector<std::string> text = paragraphs(function.doc, 96);
     for (const ir::Citation& citation : function.citations) {
         std::string key = citation.source;
         if (!citation.locator.empty()) key += " " + citation.locator;
@@ -129,12 +129,12 @@ std::vector<Record> Listing::comment(const ir::Function& function) const
             if (declared.name == citation.source &&
                 (source == nullptr || declared.span.source == function.span.source))
                 source = &declared;
-        for (std::string& line : fill(source == nullptr ? key : key + ": " + source->text, 92))
+        for (std::string& line : fill(source == nullptr ? key : key + ": " + source->text, 96))
             text.push_back(std::move(line));
     }
     if (!function.formula.empty()) {
         std::string formula = "= " + function.formula;
-        for (std::string& line : fill(formula, 92)) text.push_back(std::move(line));
+        for (std::string& line : fill(formula, 96)) text.push_back(std::move(line));
     }
     std::string expects;
     for (const ir::Input& input : function.inputs) {
@@ -146,7 +146,7 @@ std::vector<Record> Listing::comment(const ir::Function& function) const
     const std::string range = range_text(function.range);
     if (!expects.empty()) expects += ". ";
     if (!range.empty()) expects += fmt::format("Returns {}.", range);
-    for (std::string& line : fill(expects, 92)) text.push_back(std::move(line));
+    for (std::string& line : fill(expects, 96)) text.push_back(std::move(line));
     text.push_back(cite(function.span));
     return lines(text);
 }

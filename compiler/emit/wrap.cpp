@@ -75,4 +75,17 @@ std::vector<std::string> fill(std::string_view prose, std::size_t width)
     return lines;
 }
 
+std::vector<std::string> paragraphs(std::string_view prose, std::size_t width)
+{
+    std::vector<std::string> lines;
+    while (!prose.empty()) {
+        const auto end = prose.find("\n\n");
+        const std::vector<std::string> filled = fill(prose.substr(0, end), width);
+        if (!lines.empty() && !filled.empty()) lines.emplace_back();
+        lines.insert(lines.end(), filled.begin(), filled.end());
+        prose.remove_prefix(end == std::string_view::npos ? prose.size() : end + 2);
+    }
+    return lines;
+}
+
 }  // namespace lobe::emit

@@ -15,4 +15,7 @@ std::string wrap(std::string_view line, std::size_t column, std::string_view ind
 /// Prose broken at spaces, as lines of at most `width` columns.
 std::vector<std::string> fill(std::string_view prose, std::size_t width);
 
+/// As `fill`, paragraph by paragraph; blank lines between them stay.
+std::vector<std::string> paragraphs(std::string_view prose, std::size_t width);
+
 }  // namespace lobe::emit

@@ -1,0 +1,304 @@
+// Unreal Engine 4: one .ush per module, and for every model that is lit by a light a BxDF with the
+// engine's signature.
+//
+// The engine gives NoL and, through BxDFContext, angles that SphereMaxNoH moves for lights with a
+// size. The diffuse part reads them before, the specular part after. The stable fields are not in
+// the context. For a point light they come from the vectors, as everywhere; where SphereMaxNoH has
+// moved the half vector no vector is left that belongs to it, and they come from the moved cosines,
+// which is as accurate as these: a light of that size has no peak finer than a float can resolve.
+#include "emit/frame.h"
+#include "emit/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lobe::emit {
+namespace {
+
+using Field = ir::GeometryField;
+
+constexpr double least_roughness = 0x1p-6;
+
+std::string upper_snake(std::string_view name)
+{
+    std::string result;
+    for (const char c : name) result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return result;
+}
+
+/// True when a light's direction matters: more is asked than the normal and the eye.
+bool is_lit(const ModelInputs& inputs)
+{
+    return std::ranges::any_of(inputs.geometry, [](Field field) {
+        return field != Field::n && field != Field::v && field != Field::cos_o &&
+               field != Field::x && field != Field::y && field != Field::x_dot_v &&
+               field != Field::y_dot_v;
+    });
+}
+
+/// The geometry and surface of a BxDF as expressions over the names in its scope, before or after
+/// SphereMaxNoH.
+class Phase {
+public:
+    enum class When {
+        before,
+        after
+    };
+
+    Phase(When when, std::string roughness) : when_(when), roughness_(std::move(roughness)) {}
+
+    TextGraph text;
+
+    ir::ExprId field(Field field)
+    {
+        ir::Graph& g = text.graph;
+        const auto clamped = [&](const std::string& name) {
+            const ir::ExprId raw = text.input(name, ir::Type::scalar);
+            return g.apply(ir::Op::clamp, {raw, g.literal("-1"), g.literal("1")});
+        };
+        switch (field) {
+        case Field::l: return vector("L");
+        case Field::v: return vector("V");
+        case Field::n: return vector("N");
+        case Field::x: return vector("X");
+        case Field::y: return vector("Y");
+        case Field::cos_i: return scalar("NoL");
+        case Field::cos_o: return scalar("NoV");
+        case Field::cos_h: return scalar("Context.NoH");
+        case Field::cos_d: return scalar("Context.VoH");
+        case Field::v_dot_l: return clamped("Context.VoL");
+        case Field::x_dot_l: return clamped("Context.XoL");
+        case Field::y_dot_l: return clamped("Context.YoL");
+        case Field::x_dot_v: return clamped("Context.XoV");
+        case Field::y_dot_v: return clamped("Context.YoV");
+        case Field::x_dot_h: return clamped("Context.XoH");
+        case Field::y_dot_h: return clamped("Context.YoH");
+        case Field::h: return ir::expand(g, field, frame());
+        case Field::sin2_h: {
+            const ir::ExprId cos = scalar("Context.NoH");
+            const ir::ExprId sum = g.apply(ir::Op::add, {g.literal("1"), cos});
+            return moved(field, g.apply(ir::Op::multiply, {one_minus(cos), sum}));
+        }
+        case Field::one_minus_cos_h: return moved(field, one_minus(scalar("Context.NoH")));
+        case Field::one_minus_cos_d: return moved(field, one_minus(scalar("Context.VoH")));
+        }
+        return {};
+    }
+
+    ir::ExprId surface(ir::SurfaceField field)
+    {
+        switch (field) {
+        case ir::SurfaceField::base_color: return vector("GBuffer.BaseColor");
+        case ir::SurfaceField::metallic: return scalar("GBuffer.Metallic");
+        case ir::SurfaceField::specular: return scalar("GBuffer.Specular");
+        case ir::SurfaceField::roughness: return scalar(roughness_);
+        case ir::SurfaceField::alpha: {
+            const ir::ExprId roughness = scalar(roughness_);
+            return text.graph.apply(ir::Op::multiply, {roughness, roughness});
+        }
+        case ir::SurfaceField::diffuse_color: return vector("GBuffer.DiffuseColor");
+        case ir::SurfaceField::f0: return vector("GBuffer.SpecularColor");
+        }
+        return {};
+    }
+
+private:
+    ir::ExprId vector(const std::string& name) { return text.input(name, ir::Type::vec3); }
+    ir::ExprId scalar(const std::string& name) { return text.input(name, ir::Type::scalar); }
+    ir::ExprId one_minus(ir::ExprId cos)
+    {
+        return text.graph.apply(ir::Op::subtract, {text.graph.literal("1"), cos});
+    }
+    ir::Frame frame() { return {vector("L"), vector("V"), vector("N"), {}, {}}; }
+
+    /// A stable field: from the vectors, or, where a light's size moved the cosines, from those.
+    ir::ExprId moved(Field field, ir::ExprId from_cosine)
+    {
+        ir::Graph& g = text.graph;
+        const ir::ExprId from_vectors = ir::expand(g, field, frame());
+        if (when_ == When::before) return from_vectors;
+        const ir::ExprId size = scalar("AreaLight.SphereSinAlpha");
+        const ir::ExprId is_sphere = g.apply(ir::Op::less, {g.literal("0"), size});
+        return g.apply(ir::Op::select, {is_sphere, from_cosine, from_vectors});
+    }
+
+    When when_;
+    std::string roughness_;
+};
+
+class ModelFrame {
+public:
+    ModelFrame(const ir::Module& module, const ir::Model& model, const Dialect& dialect,
+               Listing& listing)
+        : module_(module), model_(model), dialect_(dialect), listing_(listing),
+          inputs_(inputs_of(module, model, dialect)),
+          snake_stem_(model_stem(module, model, dialect)), stem_(dialect.styled(snake_stem_))
+    {
+    }
+
+    Record record(std::vector<std::string>& calls)
+    {
+        Record record;
+        record.tag = listing_.tag(model_.span);
+        record.lists["parameters"] = {};
+        if (!inputs_.parameters.empty()) {
+            Record structure;
+            structure.texts = {{"type", listing_.unique("F" + stem_ + "Parameters")},
+                               {"defaults", listing_.unique(stem_ + "Defaults")},
+                               {"macro", upper_snake(snake_stem_) + "_PARAMETERS"}};
+            structure.lists["members"] =
+                member_records(module_, dialect_, inputs_.parameters, true);
+            record.lists["parameters"].push_back(std::move(structure));
+        }
+        record.lists["bxdfs"] = {};
+        if (!is_lit(inputs_) || !inputs_.arguments.empty()) return record;
+        record.lists["bxdfs"].push_back(bxdf());
+        const std::string& name = record.lists["bxdfs"].front().texts.at("name");
+        calls.push_back(fmt::format("frame_sum += FrameBxDF( {}( FrameGBuffer( frame_x ), "
+                                    "(half3)frame_x, (half3)frame_x, (half3)frame_x, frame_x, "
+                                    "frame_x, FrameAreaLight( frame_x ), (FShadowTerms)0 ) );",
+                                    name));
+        return record;
+    }
+
+private:
+    Record bxdf()
+    {
+        const bool rough = std::ranges::any_of(
+            inputs_.surface, [](const Member& member) { return is_roughness(member.input); });
+        const bool rough_specular = std::ranges::any_of(model_.outputs, [&](const auto& output) {
+            return !is_before(output) &&
+                   std::ranges::any_of(module_[output.function].inputs,
+                                       [](const ir::Input& input) { return is_roughness(input); });
+        });
+        const std::string least = dialect_.literal(least_roughness);
+
+        Record record{{{"name", listing_.unique(stem_ + "BxDF")}}, {}};
+        record.lists["comment"] = model_comment(model_, listing_);
+        record.lists["roughness"] = {};
+        if (rough) record.lists["roughness"] = {{{{"name", "Roughness"}, {"least", least}}, {}}};
+        record.lists["widened"] = {};
+        if (rough_specular)
+            record.lists["widened"] = {{{{"name", "SpecularRoughness"},
+                                         {"roughness", "Roughness"},
+                                         {"energy", "Energy"},
+                                         {"least", least}},
+                                        {}}};
+        const bool tangents = inputs_.needs_tangents();
+        record.lists["tangents"] = {};
+        if (tangents) record.lists["tangents"] = {{{{"x", "X"}, {"y", "Y"}}, {}}};
+        record.lists["isotropic"] = std::vector<Record>(tangents ? 0 : 1);
+        record.lists["before"] = phase(Phase::When::before, "Roughness", "LightColor");
+        record.lists["after"] =
+            rough_specular ? phase(Phase::When::after, "SpecularRoughness", "LightColor * Energy")
+                           : phase(Phase::When::after, "Roughness", "LightColor");
+        return record;
+    }
+
+    static bool is_roughness(const ir::Input& input)
+    {
+        return input.origin == ir::Origin::surface &&
+               (input.which == static_cast<std::uint32_t>(ir::SurfaceField::roughness) ||
+                input.which == static_cast<std::uint32_t>(ir::SurfaceField::alpha));
+    }
+
+    /// Diffuse and transmitted light do not follow the mirror direction of a light with a size.
+    static bool is_before(const ir::ModelOutput& output)
+    {
+        return output.name == "diffuse" || output.name == "transmission";
+    }
+
+    /// An output whose name the engine does not know is a lobe more: specular.
+    static std::string_view engine_name(const ir::ModelOutput& output)
+    {
+        if (output.name == "diffuse") return "Diffuse";
+        return output.name == "transmission" ? "Transmission" : "Specular";
+    }
+
+    std::vector<Record> phase(Phase::When when, const std::string& roughness,
+                              const std::string& light)
+    {
+        Phase phase{when, roughness};
+        std::vector<ir::ExprId> roots;
+        std::vector<const ir::ModelOutput*> outputs;
+        for (const ir::ModelOutput& output : model_.outputs) {
+            if (is_before(output) != (when == Phase::When::before)) continue;
+            outputs.push_back(&output);
+            roots.push_back(phase.text.call(module_, output.function, [&](const ir::Input& input) {
+                if (input.origin == ir::Origin::geometry) {
+                    const ir::ExprId value = phase.field(static_cast<Field>(input.which));
+                    phase.text.graph.set_name(value, input_name(dialect_, input));
+                    return value;
+                }
+                if (input.origin == ir::Origin::surface)
+                    return phase.surface(static_cast<ir::SurfaceField>(input.which));
+                std::string name;
+                for (const Member& member : inputs_.parameters)
+                    if (member.input.which == input.which) name = member.name;
+                return phase.text.input("Parameters." + name, input.type);
+            }));
+        }
+        Scope scope = scope_of_body();
+        scope.inputs = phase.text.texts;
+        Body body = listing_.write(scope, phase.text.graph, roots);
+        taken_ = scope.namer;
+        for (std::size_t i = 0; i < roots.size(); ++i)
+            body.locals.push_back({fmt::format("Lighting.{} += {} * {};", engine_name(*outputs[i]),
+                                               light, body.results[i].text),
+                                   module_[outputs[i]->function].span});
+        return listing_.statements(body.locals);
+    }
+
+    /// What the template's own lines name in the BxDF, and the other phase's locals.
+    Scope scope_of_body()
+    {
+        Scope scope = listing_.scope();
+        if (taken_) {
+            scope.namer = *taken_;
+            return scope;
+        }
+        for (const std::string_view name :
+             {"GBuffer", "N", "V", "L", "X", "Y", "Falloff", "NoL", "AreaLight", "Shadow",
+              "Parameters", "Roughness", "Context", "NoV", "LightColor", "Lighting",
+              "SpecularRoughness", "Energy", "a2"})
+            scope.namer.unique(name);
+        return scope;
+    }
+
+    const ir::Module& module_;
+    const ir::Model& model_;
+    const Dialect& dialect_;
+    Listing& listing_;
+    ModelInputs inputs_;
+    std::string snake_stem_;
+    std::string stem_;
+    std::optional<Namer> taken_;
+};
+
+}  // namespace
+
+Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Target& target)
+{
+    const Dialect& language = dialect(target);
+    Listing listing{module, sources, language, module.reachable(module.roots()),
+                    function_prefix(module, target)};
+    std::vector<std::string> calls = root_calls(module, listing, language);
+
+    Record values;
+    values.texts = {{"banner", banner(module)}};
+    values.lists["doc"] = module_doc(module);
+    std::vector<Record> models;
+    for (const ir::Model& model : module.models)
+        models.push_back(ModelFrame{module, model, language, listing}.record(calls));
+    values.lists["functions"] = listing.functions();
+    values.lists["models"] = std::move(models);
+    values.lists["helpers"] = listing.helpers();
+
+    const Rendered rendered = render_embedded("ue4/module.ush", values);
+    return {fmt::format("{}/{}/{}{}", module.name, target.name, language.styled(module.name),
+                        target.extension),
+            rendered.text, listing.origins(rendered.marks), std::move(calls)};
+}
+
+}  // namespace lobe::emit

@@ -1,0 +1,81 @@
+//% # The include file of one module for HLSL.  Functions are written by emit/listing.cpp,
+//% # models by emit/shading_language.cpp.
+// ${banner}
+//% for line in doc
+// ${line.text}
+//% end
+#ifndef ${guard}
+#define ${guard}
+
+//% for helper in helpers
+${helper.text}
+
+//% end
+//% for function in functions
+//% for line in function.comment
+// ${line.text}
+//% end
+${function.signature}
+{
+//% for statement in function.statements
+    ${statement.text}
+//% end
+}
+
+//% end
+//% for model in models
+//% for structure in model.parameters
+struct ${structure.type}
+{
+//% for member in structure.members
+//% for line in member.comment
+    // ${line.text}
+//% end
+    ${member.type} ${member.name};
+//% end
+};
+
+${structure.type} ${structure.defaults}()
+{
+    ${structure.type} parameters;
+//% for member in structure.members
+    parameters.${member.name} = ${member.value};
+//% end
+    return parameters;
+}
+
+//% end
+//% for structure in model.surfaces
+struct ${structure.type}
+{
+//% for member in structure.members
+//% for line in member.comment
+    // ${line.text}
+//% end
+    ${member.type} ${member.name};
+//% end
+};
+
+//% end
+// What ${model.name} gives back: reflected radiance per incident irradiance of a light, so the
+// cosine of the light's angle is in it already.
+struct ${model.result}
+{
+//% for output in model.outputs
+    ${output.type} ${output.name};
+//% end
+};
+
+//% for line in model.comment
+// ${line.text}
+//% end
+// All vectors have length 1 and point away from the surface.
+${model.signature}
+{
+//% for statement in model.statements
+    ${statement.text}
+//% end
+}
+
+//% end
+#endif  // ${guard}
