@@ -45,12 +45,18 @@ constexpr std::array operators{
 
 const OperatorText& text_of(BinaryOperator op) { return operators[static_cast<std::size_t>(op)]; }
 
-/// Between two literals a division is a fraction: `1/4096`.
+bool is_constant(const Expression& expression)
+{
+    const auto* name = std::get_if<Name>(&expression.node);
+    return std::holds_alternative<Number>(expression.node) ||
+           (name != nullptr && name->text == "pi");
+}
+
+/// Between two constants a division is a fraction: `1/4096`, `pi/2`.
 std::string_view operator_text(const Binary& binary, const Tree& tree)
 {
     const bool fraction = binary.op == BinaryOperator::divide && !binary.limit.valid() &&
-                          std::holds_alternative<Number>(tree[binary.left].node) &&
-                          std::holds_alternative<Number>(tree[binary.right].node);
+                          is_constant(tree[binary.left]) && is_constant(tree[binary.right]);
     return fraction ? "/" : text_of(binary.op).text;
 }
 

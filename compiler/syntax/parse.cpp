@@ -137,7 +137,10 @@ void Parser::fail(Diagnostic diagnostic)
     const Token token = current();
     report_problems(token.begin);
     // What forms no token has its own message.
-    if (token.kind == TokenKind::unknown || token.kind == TokenKind::bad_number)
+    const bool has_problem =
+        token.kind == TokenKind::unknown || (next_problem_ < tokens_.problems.size() &&
+                                             tokens_.problems[next_problem_].begin < token.end);
+    if (has_problem)
         report_problems(token.end);
     else
         report(std::move(diagnostic));
@@ -252,8 +255,11 @@ void Parser::expect_closing(TokenKind kind, const Token& open, std::string_view 
     const bool read_too_far = at(TokenKind::assign) && kind != TokenKind::right_brace &&
                               previous().kind == TokenKind::identifier && previous().first_on_line;
     if (read_too_far) --position_;
-    const bool over = read_too_far || at(TokenKind::end) || at_item() || closes(current().kind) ||
-                      (at(TokenKind::word_let) && kind != TokenKind::right_brace);
+    const bool next_line =
+        at(TokenKind::identifier) && current().first_on_line && ahead(1).kind == TokenKind::assign;
+    const bool next_in_block =
+        kind != TokenKind::right_brace && (read_too_far || next_line || at(TokenKind::word_let));
+    const bool over = next_in_block || at(TokenKind::end) || at_item() || closes(current().kind);
     Diagnostic result;
     if (over) {
         result.code = Code::unclosed_bracket;

@@ -1,0 +1,216 @@
+#include "syntax/random_tree.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace lobe::tests {
+namespace {
+
+using namespace lobe::syntax;
+
+class Grower {
+public:
+    Grower(std::mt19937& random, int depth) : random_(random), depth_(depth) {}
+
+    Tree grow()
+    {
+        tree_.header = comments(true);
+        tree_.module = name();
+        for (int i = below(3); i > 0; --i) add(Import{name(), names()});
+        const int size = 1 + below(6);
+        for (int i = 0; i < size; ++i) add_any();
+        tree_.footer = comments(false);
+        return std::move(tree_);
+    }
+
+private:
+    int below(int bound) { return std::uniform_int_distribution<int>{0, bound - 1}(random_); }
+    bool chance(int in) { return below(in) == 0; }
+
+    template <std::size_t size>
+    std::string pick(const std::array<std::string_view, size>& from)
+    {
+        return std::string{from[static_cast<std::size_t>(below(static_cast<int>(size)))]};
+    }
+
+    Identifier name()
+    {
+        static constexpr std::array<std::string_view, 16> words{
+            "a",    "b",     "cos_d",  "D_GGX",
+            "term", "form",  "in",     "off",
+            "when", "param", "source", "tier",
+            "pi",   "m",     "base",   "quite_a_long_name_that_fills"};
+        return {pick(words), {}};
+    }
+
+    std::vector<Identifier> names()
+    {
+        std::vector<Identifier> result{name()};
+        for (int i = below(12); i > 0; --i) result.push_back(name());
+        return result;
+    }
+
+    std::string text()
+    {
+        static constexpr std::array<std::string_view, 5> texts{
+            "", "Diffuse Fresnel", "a \"b\" \\ c", "\u00E4 \u4E2D", "// no comment"};
+        return pick(texts);
+    }
+
+    std::vector<Comment> comments(bool docs)
+    {
+        static constexpr std::array<std::string_view, 5> texts{"", "slides 85", "  indented",
+                                                               "/ slash", "---- caf\u00E9"};
+        std::vector<Comment> result;
+        for (int i = chance(2) ? below(4) : 0; i > 0; --i)
+            result.push_back({pick(texts), {}, docs && chance(2), chance(3)});
+        return result;
+    }
+
+    std::vector<Comment> trailing()
+    {
+        if (!chance(4)) return {};
+        return {Comment{"behind", {}, false, false}};
+    }
+
+    template <class Node>
+    ExpressionId make(Node node)
+    {
+        tree_.expressions.push_back({{}, std::move(node), chance(4)});
+        return ExpressionId{tree_.expressions.size() - 1};
+    }
+
+    ExpressionId expression(int depth)
+    {
+        static constexpr std::array<std::string_view, 6> numbers{"0",    "1",       "0.75",
+                                                                 "1e-3", "5.55473", "4096"};
+        if (depth <= 0 || chance(6))
+            return chance(2) ? make(Number{pick(numbers)}) : make(Name{name().text});
+        const int next = depth - 1;
+        switch (below(8)) {
+        case 0: return make(Member{expression(next), name()});
+        case 1:
+            return make(Unary{chance(3) ? UnaryOperator::logical_not : UnaryOperator::negate,
+                              expression(next)});
+        case 2: {
+            Call call{name(), {}};
+            for (int i = below(4); i > 0; --i) call.arguments.push_back(expression(next));
+            return make(std::move(call));
+        }
+        case 3: {
+            const ExpressionId condition = expression(next);
+            const ExpressionId then_value = expression(next);
+            return make(Conditional{condition, then_value, expression(next)});
+        }
+        default: {
+            const auto op = static_cast<BinaryOperator>(below(13));
+            const ExpressionId left = expression(next);
+            const ExpressionId right = expression(next);
+            const bool limited = op == BinaryOperator::divide && chance(2);
+            return make(Binary{op, left, right, limited ? expression(next) : ExpressionId{}, {}});
+        }
+        }
+    }
+    ExpressionId expression() { return expression(1 + below(depth_)); }
+
+    TypeClause type()
+    {
+        TypeClause result{name(), std::nullopt, {}};
+        if (chance(2)) {
+            const ExpressionId low = expression(2);
+            result.range = RangeClause{low, expression(2), {}};
+        }
+        return result;
+    }
+
+    std::vector<ParameterClause> parameters()
+    {
+        std::vector<ParameterClause> result;
+        for (int i = below(4); i > 0; --i) result.push_back({name(), type()});
+        return result;
+    }
+
+    Let let() { return {name(), expression(), comments(true), {}, chance(3), trailing()}; }
+
+    std::vector<Let> lets()
+    {
+        std::vector<Let> result;
+        for (int i = below(3); i > 0; --i) result.push_back(let());
+        return result;
+    }
+
+    Body body()
+    {
+        Body result;
+        result.block = chance(2);
+        if (result.block) {
+            result.lets = lets();
+            result.value_comments = comments(false);
+            result.value_blank_before = chance(3);
+        }
+        result.value = expression();
+        result.trailing = trailing();
+        return result;
+    }
+
+    template <class Node>
+    void add(Node node)
+    {
+        Item item;
+        item.comments = comments(true);
+        item.blank_lines_before = below(2);
+        item.node = std::move(node);
+        if (!std::holds_alternative<TermItem>(item.node)) item.trailing = trailing();
+        tree_.items.push_back(std::move(item));
+    }
+
+    void add_any()
+    {
+        switch (below(6)) {
+        case 0: return add(SourceItem{name(), text()});
+        case 1: return add(TierItem{names()});
+        case 2: {
+            ParamItem param;
+            param.name = name();
+            param.type = type();
+            const int components = chance(3) ? 3 : 1;
+            for (int i = 0; i < components; ++i) param.default_value.push_back(expression(2));
+            if (chance(2)) param.tier = name();
+            if (chance(2)) param.label = text();
+            return add(std::move(param));
+        }
+        case 3: {
+            TermItem term;
+            term.name = name();
+            term.parameters = parameters();
+            if (chance(2)) term.result = type();
+            term.body = body();
+            for (int i = below(3); i > 0; --i)
+                term.forms.push_back({name(), body(), comments(true), {}});
+            return add(std::move(term));
+        }
+        case 4: return add(EffectItem{text(), {}, expression()});
+        default: {
+            ModelItem model;
+            model.name = name();
+            model.parameters = parameters();
+            model.lets = lets();
+            for (int i = below(4); i > 0; --i)
+                model.outputs.push_back(
+                    {name(), expression(), comments(true), {}, chance(3), trailing()});
+            return add(std::move(model));
+        }
+        }
+    }
+
+    std::mt19937& random_;
+    int depth_;
+    Tree tree_;
+};
+
+}  // namespace
+
+Tree random_tree(std::mt19937& random, int depth) { return Grower{random, depth}.grow(); }
+
+}  // namespace lobe::tests
