@@ -60,14 +60,21 @@ bool is_binade(double x)
     return (std::bit_cast<std::uint64_t>(x) & 0xfffffffffffffU) == 0 && x >= 0x1p-1022;
 }
 
+/// Twice the error of a power, relative: 2 units in the last place, and 1/16 for every unit of
+/// the exponent of 2.
+double power_slack(double x, double y)
+{
+    return (4 + std::min(std::abs(y * log2_one(x)), 1100.0) / 8) * 0x1p-52;
+}
+
 double power_down(double x, double y)
 {
     if (y == 0 || x == 1) return 1;
     if (x <= 0) return y > 0 ? 0 : infinity;
-    const double value = power_one(x, y);
     if (y == 1) return x;
+    const double value = power_one(x, y);
     if (value == infinity) return std::numeric_limits<double>::max();
-    return std::max(lower(value, function_slack), 0.0);
+    return std::max(lower(value * (1 - power_slack(x, y)), 1), 0.0);
 }
 
 double power_up(double x, double y)
@@ -75,7 +82,7 @@ double power_up(double x, double y)
     if (y == 0 || x == 1) return 1;
     if (x <= 0) return y > 0 ? 0 : infinity;
     if (y == 1) return x;
-    const double value = upper(power_one(x, y), function_slack);
+    const double value = upper(power_one(x, y) * (1 + power_slack(x, y)), 1);
     // x^y does not cross 1.
     return (x < 1) == (y > 0) ? std::min(value, 1.0) : value;
 }
