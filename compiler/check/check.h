@@ -15,8 +15,8 @@ namespace lobe::check {
 /// How imported modules are found: given the name and the path of the importing file, adds the
 /// text to `sources` and returns its index; nothing when there is no such module. The check
 /// itself reads no disk.
-using Loader = std::function<std::optional<std::uint32_t>(
-    Sources& sources, std::string_view module, std::string_view importing_path)>;
+using Loader = std::function<std::optional<std::uint32_t>(Sources& sources, std::string_view module,
+                                                          std::string_view importing_path)>;
 
 /// The module that one source means, with what it imports. Nothing comes out if anything was
 /// wrong with what went in, and everything wrong was reported. Parses `root` and every import

@@ -1,0 +1,44 @@
+// Deciding a claim for all inputs of a box: intervals first, then slopes, then halves of the box.
+#pragma once
+
+#include "check/analysis.h"
+#include "check/derivative.h"
+
+#include <memory>
+#include <vector>
+
+namespace lobe::check {
+
+/// Proves "at every input one of the claims holds" over the declared ranges of a flat body. Claim
+/// `i` is about root `i`.
+class BoxProof {
+public:
+    /// `slack` is how far past a closed end still counts as inside: interval arithmetic rounds
+    /// outward, so a bound that is exact in the reals may be missed by a few units.
+    BoxProof(const Flat& flat, std::vector<Requirement> claims, double slack);
+
+    /// The box is halved at most some thousand times; false means proved or not known.
+    bool prove();
+
+    /// The range of a root over the declared ranges, as tight as slopes make it.
+    Interval range(std::size_t root);
+
+private:
+    bool holds(const Box& box);
+    bool holds_by_slopes(const Box& box);
+    /// One bound of one component, from the face of the box where the slopes say it is attained.
+    double bound(std::size_t root, std::size_t component, const Box& box, bool low);
+    Analysis* slopes(std::size_t root);
+    std::optional<std::size_t> widest(const Box& box) const;
+
+    Flat flat_;
+    std::vector<Requirement> claims_;
+    double slack_;
+    Analysis analysis_;
+    Box whole_;
+    std::vector<ScalarInput> varied_;                ///< the inputs that matter
+    std::vector<std::size_t> varied_index_;          ///< their place in a box
+    std::vector<std::unique_ptr<Analysis>> slopes_;  ///< per root, built when first needed
+};
+
+}  // namespace lobe::check

@@ -1,0 +1,152 @@
+#include "check/order.h"
+
+#include "check/traverse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lobe::check {
+namespace {
+
+enum class Color {
+    white,
+    gray,
+    black
+};
+
+class Ordering {
+public:
+    Ordering(const Program& program, Diagnostics& diagnostics)
+        : program_(program), diagnostics_(diagnostics), colors_(program.callables.size()),
+          cyclic_(program.callables.size())
+    {
+    }
+
+    void visit(std::size_t root)
+    {
+        if (colors_[root] != Color::white) return;
+        enter(root);
+        while (!path_.empty()) {
+            Step& step = path_.back();
+            if (step.next == step.callees.size()) {
+                colors_[step.callable] = Color::black;
+                if (!cyclic_[step.callable]) order_.push_back(step.callable);
+                path_.pop_back();
+                continue;
+            }
+            const Reference callee = step.callees[step.next++];
+            if (colors_[callee.callable] == Color::white)
+                enter(callee.callable);
+            else if (colors_[callee.callable] == Color::gray)
+                report_cycle(callee.callable);
+        }
+    }
+
+    std::vector<std::size_t> take() { return std::move(order_); }
+
+private:
+    struct Step {
+        std::size_t callable = 0;
+        std::vector<Reference> callees;
+        std::size_t next = 0;  ///< the callee to enter next; the one before it is being visited
+    };
+
+    void enter(std::size_t index)
+    {
+        colors_[index] = Color::gray;
+        path_.push_back({index, callees_of(index), 0});
+    }
+
+    std::vector<Reference> callees_of(std::size_t index) const
+    {
+        const Callable& callable = program_.callables[index];
+        const File& file = *program_.files[callable.file];
+        const syntax::Body& body = callable.form ? callable.form->body : callable.term->body;
+        std::vector<Reference> result;
+        if (callable.form) result.push_back({callable.term_index, callable.span});
+        const auto add = [&](syntax::ExpressionId root) {
+            const auto found = references(program_, file, root);
+            result.insert(result.end(), found.begin(), found.end());
+        };
+        for (const syntax::Let& let : body.lets) add(let.value);
+        add(body.value);
+        return result;
+    }
+
+    void report_cycle(std::size_t callee)
+    {
+        auto first = std::ranges::find(path_, callee, &Step::callable);
+        std::string chain;
+        std::vector<Label> calls;
+        for (auto step = first; step != path_.end(); ++step) {
+            cyclic_[step->callable] = true;
+            const Reference& call = step->callees[step->next - 1];
+            const std::string& caller = program_.callables[step->callable].name;
+            const std::string& called = program_.callables[call.callable].name;
+            if (chain.empty()) chain = fmt::format("`{}`", caller);
+            chain += fmt::format(" calls `{}`", called);
+            calls.push_back({call.span, fmt::format("`{}` calls `{}`", caller, called)});
+        }
+        const Callable& start = program_.callables[callee];
+        const bool itself = first + 1 == path_.end();
+        Diagnostic diagnostic{.code = Code::recursive_term,
+                              .message = itself ? fmt::format("`{}` calls itself", start.name)
+                                                : fmt::format("terms call each other: {}", chain),
+                              .primary = calls.back(),
+                              .secondary = {}};
+        if (itself) diagnostic.primary.text.clear();
+        for (std::size_t i = 0; i + 1 < calls.size(); ++i) diagnostic.secondary.push_back(calls[i]);
+        diagnostic.notes = {"a term is a formula: its value must not depend on itself"};
+        diagnostics_.report(std::move(diagnostic));
+    }
+
+    const Program& program_;
+    Diagnostics& diagnostics_;
+    std::vector<Color> colors_;
+    std::vector<bool> cyclic_;
+    std::vector<Step> path_;
+    std::vector<std::size_t> order_;
+};
+
+}  // namespace
+
+std::vector<Reference> references(const Program& program, const File& file,
+                                  syntax::ExpressionId root)
+{
+    std::vector<Reference> result;
+    for (const Visit& visit : walk(file.tree, root).visits) {
+        const auto* call = std::get_if<syntax::Call>(&file.tree[visit.id].node);
+        if (!call) continue;
+        const auto found = file.names.find(call->callee.text);
+        if (found != file.names.end() && found->second.kind == NameKind::callable &&
+            found->second.index < program.callables.size())
+            result.push_back({found->second.index, call->callee.span});
+    }
+    return result;
+}
+
+std::vector<std::size_t> lowering_order(const Program& program, Diagnostics& diagnostics)
+{
+    Ordering ordering{program, diagnostics};
+    const std::size_t root = program.files.size() - 1;
+    for (std::size_t i = 0; i < program.callables.size(); ++i)
+        if (program.callables[i].file == root) ordering.visit(i);
+
+    const File& file = *program.files[root];
+    const auto visit = [&](syntax::ExpressionId id) {
+        for (const Reference& reference : references(program, file, id))
+            ordering.visit(reference.callable);
+    };
+    for (const syntax::Item& item : file.tree.items) {
+        if (const auto* effect = std::get_if<syntax::EffectItem>(&item.node))
+            visit(effect->off_when);
+        if (const auto* model = std::get_if<syntax::ModelItem>(&item.node)) {
+            for (const syntax::Let& let : model->lets) visit(let.value);
+            for (const syntax::Output& output : model->outputs) visit(output.value);
+        }
+    }
+    return ordering.take();
+}
+
+}  // namespace lobe::check

@@ -1,0 +1,24 @@
+// In what order bodies are lowered: callees first. What calls itself is refused.
+#pragma once
+
+#include "check/program.h"
+
+#include <vector>
+
+namespace lobe::check {
+
+/// A mention of a callable in a body.
+struct Reference {
+    std::size_t callable = 0;
+    Span span;
+};
+
+/// The callables that an expression calls, in the order written.
+std::vector<Reference> references(const Program& program, const File& file,
+                                  syntax::ExpressionId root);
+
+/// All callables that the root file declares or needs, callees first, a form after its term.
+/// Those on a cycle are left out (E0306 is reported, with the chain).
+std::vector<std::size_t> lowering_order(const Program& program, Diagnostics& diagnostics);
+
+}  // namespace lobe::check

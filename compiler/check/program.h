@@ -1,0 +1,105 @@
+// All files of one check, and what they declare: the tables between trees and module.
+//
+// `modules.cpp` fills `files`, `names.cpp` the scopes and signatures, `order.cpp` decides what is
+// lowered and when, `functions.cpp` lowers into `functions`.
+#pragma once
+
+#include "base/diagnostic.h"
+#include "check/types.h"
+#include "syntax/tree.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lobe::check {
+
+/// A type as written in a declaration.
+struct DeclaredType {
+    ValueType type;
+    ir::Range range{};     ///< of every component; infinite where nothing bounds it
+    bool bounded = false;  ///< the clause itself says the range, by `in` or by a name like `unit`
+    Span span;
+};
+
+struct Argument {
+    std::string name;
+    Span span;  ///< of the name
+    DeclaredType type;
+};
+
+/// What a caller of a term needs to know. Shared by the term and its forms.
+struct Signature {
+    std::vector<Argument> arguments;
+    std::optional<DeclaredType> result;
+    bool broken = false;  ///< something about it was reported; callers stay silent
+};
+
+/// Something with a body that can be called: a term, or a form of one.
+struct Callable {
+    std::string name;
+    Span span;  ///< of its name
+    std::size_t file = 0;
+    const syntax::Item* item = nullptr;
+    const syntax::TermItem* term = nullptr;
+    const syntax::Form* form = nullptr;  ///< null for the term itself
+    std::size_t term_index = 0;          ///< for a form: its term among the callables
+    Signature signature;
+    std::optional<ir::FunctionId> function;  ///< once lowered without errors
+};
+
+enum class NameKind {
+    callable,
+    parameter,
+    model,
+    output,
+    lost
+};
+
+/// What a name stands for in one file. `lost` names come from an import that failed; whatever
+/// uses them stays silent.
+struct Declared {
+    NameKind kind{};
+    std::size_t index = 0;
+    Span span;
+    bool imported = false;
+    bool used = false;
+};
+
+using Scope = std::map<std::string, Declared, std::less<>>;
+
+struct File {
+    std::string name;  ///< of the module
+    std::uint32_t source = 0;
+    syntax::Tree tree;
+    bool broken = false;  ///< has syntax errors: names may be missing that were written
+    std::vector<std::optional<std::size_t>> imports;  ///< per import item, in order
+    Scope names;
+    std::map<std::string, Span, std::less<>> tiers;
+    std::map<std::string, const syntax::SourceItem*, std::less<>> sources;
+};
+
+struct Program {
+    std::vector<std::unique_ptr<File>> files;  ///< imported ones first, the root last
+    std::vector<Callable> callables;
+    std::vector<ir::Parameter> parameters;  ///< of all files; pruned at the end
+    std::vector<bool> parameter_broken;
+    std::vector<ir::Function> functions;  ///< callees first
+    std::vector<ir::Source> cited;        ///< sources that lowered functions cite
+
+    File& root() { return *files.back(); }
+};
+
+/// The names of one kind in a scope, for suggestions.
+std::vector<std::string> names_of(const Scope& scope, NameKind kind);
+
+/// `; did you mean `x`?` when something is near, else nothing.
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& candidates);
+/// The edit that replaces a misspelt name by a near one.
+std::optional<Fix> rename_fix(std::string_view name, const Span& span,
+                              const std::vector<std::string>& candidates);
+
+}  // namespace lobe::check

@@ -1,0 +1,208 @@
+#include "check/prove.h"
+
+#include "check/boxes.h"
+#include "check/flatten.h"
+#include "check/range_report.h"
+#include "check/witness.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lobe::check {
+namespace {
+
+using ir::ExprId;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A declared range is met up to the rounding of the analysis. Domains have no such room: what is
+/// outside of them has no value.
+double slack_of(Obligation::Kind kind)
+{
+    const bool declared = kind == Obligation::Kind::argument || kind == Obligation::Kind::result;
+    return declared ? 0x1p-40 : 0;
+}
+
+class Proving {
+public:
+    Proving(const std::vector<ir::Function>& functions, const Draft& draft)
+        : functions_(functions), draft_(draft), graph_(draft.function.graph)
+    {
+        measure();
+    }
+
+    bool holds(const Obligation& obligation) const
+    {
+        for (const Claim& claim : obligation.any_of) {
+            if (satisfies(ranges_of(claim.subject), claim.requirement, slack_of(obligation.kind)))
+                return true;
+            if (claim.requirement.nonzero && said_nonzero(claim.subject, obligation.given))
+                return true;
+        }
+        BoxProof proof{
+            flatten(functions_, draft_.function, subjects(obligation), sharpened(obligation.given)),
+            requirements(obligation), slack_of(obligation.kind)};
+        return proof.prove();
+    }
+
+    bool excludes_zero(const NamedLimit& limit) const
+    {
+        Obligation obligation;
+        obligation.kind = Obligation::Kind::divisor;
+        obligation.any_of = {{limit.divisor, {.nonzero = true}}};
+        obligation.given = limit.given;
+        return holds(obligation);
+    }
+
+    Finding investigate(const Obligation& obligation) const
+    {
+        Finding finding;
+        finding.obligation = obligation;
+        std::vector<ExprId> roots = subjects(obligation);
+        BoxProof ranges{flatten(functions_, draft_.function, roots, sharpened(obligation.given)),
+                        requirements(obligation), 0};
+        for (std::size_t i = 0; i < roots.size(); ++i) finding.ranges.push_back(ranges.range(i));
+
+        Search search;
+        search.claims = requirements(obligation);
+        for (const Fact& fact : obligation.given) {
+            search.facts.push_back(fact.relation);
+            roots.push_back(fact.left);
+            roots.push_back(fact.right);
+        }
+        search.flat = flatten(functions_, draft_.function, roots, {});
+        finding.witness = find_witness(search);
+
+        const Analysis analysis{flatten(functions_, draft_.function, subjects(obligation), {})};
+        const ir::Input* last = nullptr;
+        for (std::size_t i = 0; i < analysis.inputs().size(); ++i) {
+            const ir::Input& input = draft_.function.inputs[analysis.inputs()[i].input];
+            const bool bounded = std::isfinite(input.range.low) && std::isfinite(input.range.high);
+            if (!analysis.depends_on(i) || bounded || &input == last) continue;
+            finding.unbounded.push_back(&input);
+            last = &input;
+        }
+        return finding;
+    }
+
+    /// The range of the result: inferred, within what was declared.
+    ir::Range result_range() const
+    {
+        const ExprId result = draft_.function.result;
+        if (graph_[result].type == ir::Type::boolean) return {0, 1};
+        BoxProof proof{flatten(functions_, draft_.function, {&result, 1}, {}), {Requirement{}}, 0};
+        const Interval inferred = proof.range(0);
+        ir::Range range{-infinity, infinity};
+        if (inferred.low <= inferred.high) range = {inferred.low, inferred.high};
+        if (const auto& declared = draft_.function.declared_range) {
+            const ir::Range both{std::max(range.low, declared->low),
+                                 std::min(range.high, declared->high)};
+            range = both.low <= both.high ? both : *declared;
+        }
+        return range;
+    }
+
+private:
+    /// The ranges of everything that is asked about, in one run.
+    void measure()
+    {
+        std::vector<ExprId> roots;
+        const auto add = [&](ExprId id) {
+            if (known_.size() < graph_.size()) known_.resize(graph_.size());
+            if (known_[id.index].empty()) roots.push_back(id);
+            known_[id.index] = {{-infinity, infinity}};
+        };
+        for (const Obligation& obligation : draft_.obligations) {
+            for (const Claim& claim : obligation.any_of) add(claim.subject);
+            for (const Fact& fact : obligation.given) {
+                add(fact.left);
+                add(fact.right);
+            }
+        }
+        for (const NamedLimit& limit : draft_.limits) {
+            add(limit.divisor);
+            for (const Fact& fact : limit.given) {
+                add(fact.left);
+                add(fact.right);
+            }
+        }
+        if (roots.empty()) return;
+        Analysis analysis{flatten(functions_, draft_.function, roots, {})};
+        const auto& ranges = analysis.ranges(analysis.declared());
+        for (std::size_t i = 0; i < roots.size(); ++i) known_[roots[i].index] = ranges[i];
+    }
+
+    const std::vector<Interval>& ranges_of(ExprId id) const { return known_[id.index]; }
+
+    static std::vector<ExprId> subjects(const Obligation& obligation)
+    {
+        std::vector<ExprId> result;
+        for (const Claim& claim : obligation.any_of) result.push_back(claim.subject);
+        return result;
+    }
+    static std::vector<Requirement> requirements(const Obligation& obligation)
+    {
+        std::vector<Requirement> result;
+        for (const Claim& claim : obligation.any_of) result.push_back(claim.requirement);
+        return result;
+    }
+
+    bool is_zero(ExprId id) const { return graph_.is_literal(id, 0); }
+
+    bool said_nonzero(ExprId subject, const std::vector<Fact>& given) const
+    {
+        return std::ranges::any_of(given, [&](const Fact& fact) {
+            return fact.relation == Relation::not_equal &&
+                   ((fact.left == subject && is_zero(fact.right)) ||
+                    (fact.right == subject && is_zero(fact.left)));
+        });
+    }
+
+    /// What differs from 0 and is not negative is positive.
+    std::vector<Fact> sharpened(std::vector<Fact> given) const
+    {
+        for (Fact& fact : given) {
+            if (fact.relation != Relation::not_equal) continue;
+            if (is_zero(fact.left)) std::swap(fact.left, fact.right);
+            if (!is_zero(fact.right)) continue;
+            const Interval range = hull(ranges_of(fact.left));
+            if (range.low >= 0)
+                fact = {Relation::less, fact.right, fact.left};
+            else if (range.high <= 0)
+                fact.relation = Relation::less;
+        }
+        return given;
+    }
+
+    const std::vector<ir::Function>& functions_;
+    const Draft& draft_;
+    const ir::Graph& graph_;
+    std::vector<std::vector<Interval>> known_;  ///< per expression of the draft, where asked for
+};
+
+}  // namespace
+
+bool prove(const Program& program, Draft& draft, const Sources& sources, Diagnostics& diagnostics)
+{
+    const Proving proving{program.functions, draft};
+    bool proved = true;
+    for (const Obligation& obligation : draft.obligations) {
+        if (proving.holds(obligation)) continue;
+        diagnostics.report(describe(proving.investigate(obligation), sources));
+        proved = false;
+    }
+    for (const NamedLimit& limit : draft.limits)
+        if (proving.excludes_zero(limit))
+            diagnostics.report({.code = Code::unused_limit,
+                                .message = "this limit is never used",
+                                .primary = {limit.limit, "the divisor cannot be 0"},
+                                .secondary = {{limit.divisor_span, "the divisor"}},
+                                .helps = {"leave out the `else`"}});
+    if (proved && draft.function.result.valid()) draft.function.range = proving.result_range();
+    return proved;
+}
+
+}  // namespace lobe::check
