@@ -167,7 +167,7 @@ std::pair<Function, std::vector<Wire>> Rebuild::finish()
 {
     const ExprId result = moved(old().result);
     const auto uses = use_counts(graph, result);
-    if (finished) finished(uses);
+    if (finished) finished();
 
     std::vector<bool> wanted(slots_.size());
     for (std::size_t i = 0; i < slots_.size(); ++i)
@@ -227,17 +227,51 @@ Module rewrite(const Module& module, const Pass& pass)
     return result;
 }
 
+namespace {
+
+/// The same expression from the result down. Both graphs share equal expressions, so a pairing
+/// of ids that is one to one is all there is to it.
+bool same_graph(const Function& f, const Function& g)
+{
+    std::vector<std::pair<ExprId, ExprId>> open{{f.result, g.result}};
+    Facts<Expr, ExprId> paired(f.graph.size());
+    while (!open.empty()) {
+        const auto [a, b] = open.back();
+        open.pop_back();
+        if (paired[a].valid()) {
+            if (paired[a] != b) return false;
+            continue;
+        }
+        paired[a] = b;
+        const Expr& x = f.graph[a];
+        const Expr& y = g.graph[b];
+        if (x.op != y.op || x.type != y.type || x.count != y.count) return false;
+        if (x.op == Op::literal ? f.graph.literal_of(a).text != g.graph.literal_of(b).text
+                                : x.aux != y.aux)
+            return false;
+        for (std::size_t i = 0; i < x.count; ++i)
+            open.emplace_back(f.graph.operands(a)[i], g.graph.operands(b)[i]);
+    }
+    return true;
+}
+
+bool same_input(const Input& x, const Input& y)
+{
+    return x.name == y.name && x.type == y.type && x.range == y.range && x.origin == y.origin &&
+           x.which == y.which;
+}
+
+}  // namespace
+
+bool same_function(const Function& f, const Function& g)
+{
+    return f.name == g.name && std::ranges::equal(f.inputs, g.inputs, same_input) &&
+           same_graph(f, g);
+}
+
 bool same_graphs(const Module& a, const Module& b)
 {
-    const auto same = [](const Function& f, const Function& g) {
-        const auto same_input = [](const Input& x, const Input& y) {
-            return x.name == y.name && x.type == y.type && x.origin == y.origin &&
-                   x.which == y.which;
-        };
-        return f.name == g.name && f.result == g.result &&
-               std::ranges::equal(f.inputs, g.inputs, same_input) && dump(f.graph) == dump(g.graph);
-    };
-    return std::ranges::equal(a.functions, b.functions, same);
+    return std::ranges::equal(a.functions, b.functions, same_function);
 }
 
 }  // namespace lobe::optimize

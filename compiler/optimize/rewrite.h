@@ -63,9 +63,8 @@ public:
     /// pass knows better.
     std::function<ir::ExprId(ir::ExprId old_operand)> complement;
 
-    /// Called when the function is complete, with the use counts of `graph`: tells a pass which
-    /// of the expressions that it built are alive.
-    std::function<void(const Facts<ir::Expr, int>& uses)> finished;
+    /// Called when every expression has its place, if a pass has something left to do.
+    std::function<void()> finished;
 
     void place(ir::ExprId old_id, ir::ExprId new_id);
     /// The function with its dead expressions and unused inputs gone, and how to call it.
@@ -101,7 +100,9 @@ ir::Module rewrite(const ir::Module& module, const Pass& pass);
 /// Which functions are roots, by index.
 std::vector<bool> root_flags(const ir::Module& module);
 
-/// The same functions up to spans: what "nothing changed" means.
+/// Equal inputs and, up to the order of ids, spans and the names of lets, equal expressions: what
+/// "nothing changed" means.
+bool same_function(const ir::Function& f, const ir::Function& g);
 bool same_graphs(const ir::Module& a, const ir::Module& b);
 
 }  // namespace lobe::optimize

@@ -66,7 +66,7 @@ public:
             for (const ExprId operand : graph_.operands(id)) users_[operand].push_back(id);
     }
 
-    Facts<Expr, std::optional<Match>> run()
+    Matches run()
     {
         // From the result down: whether a factored square is worth it depends on where it goes.
         for (std::size_t i = graph_.size(); i-- > 0;)
@@ -137,8 +137,7 @@ private:
         const Interval& x = subject_.ranges[variable];
         if (!match.rest.empty() && (x.high > 1 || x.low < (degree == 2 ? -1 : 0)))
             return std::nullopt;
-        // As (1 - x)(1 + x) stands, or is about to.
-        if (from == Source::factored && (graph_[id].op == Op::multiply || harmless(id, variable)))
+        if (from == Source::factored && (is_factored(id, variable) || harmless(id, variable)))
             return std::nullopt;
 
         const bool blend = !match.rest.empty();
@@ -151,35 +150,73 @@ private:
         return match;
     }
 
+    /// True when the square of x is written as (1 - x)(1 + x) already, here or in a part.
+    bool is_factored(ExprId root, ExprId variable) const
+    {
+        const auto linear = [&](ExprId operand) {
+            const Sum& sum = subject_.sums[operand];
+            return sum.size() == 2 && split(sum, variable, 1).has_value();
+        };
+        std::vector<bool> seen(root.index + 1);
+        seen[root.index] = true;
+        for (std::size_t i = root.index + 1; i-- > 0;) {
+            if (!seen[i]) continue;
+            const ExprId id{i};
+            const auto operands = graph_.operands(id);
+            switch (graph_[id].op) {
+            case Op::multiply:
+                if (std::ranges::all_of(operands, linear)) return true;
+                [[fallthrough]];
+            case Op::add:
+            case Op::subtract:
+            case Op::negate:
+            case Op::lerp:
+                for (const ExprId operand : operands) seen[operand.index] = true;
+                break;
+            default: break;
+            }
+        }
+        return false;
+    }
+
     /// True when the rounding of x^2 in this expression is lost in every sum it enters: in
     /// a + (1 - a) s with a = x^2, what 1 - a lacks near a = 1 is nothing beside a. Also when the
     /// sum it enters is rewritten and does not read it any more.
-    bool harmless(ExprId id, ExprId variable) const
+    bool harmless(ExprId root, ExprId variable) const
     {
-        if (id == subject_.function->result || users_[id].empty()) return false;
-        return std::ranges::all_of(users_[id], [&](ExprId user) {
-            if (matches_[user]) return true;
-            switch (graph_[user].op) {
-            case Op::multiply:
-            case Op::negate: return graph_[user].type == Type::scalar && harmless(user, variable);
-            case Op::add:
-            case Op::subtract:
-            case Op::lerp: {
-                if (graph_[user].type != Type::scalar) return false;
-                const auto parts = split(subject_.sums[user], variable, 2);
-                return parts && !parts->constant.empty() &&
-                       !opposite(bounds(parts->constant, subject_.ranges),
-                                 bounds(parts->slope, subject_.ranges));
+        std::vector<bool> carries(graph_.size());  // the rounding gets this far unchanged
+        carries[root.index] = true;
+        for (std::size_t i = root.index; i < graph_.size(); ++i) {
+            const ExprId id{i};
+            if (!carries[i]) continue;
+            if (id == subject_.function->result || users_[id].empty()) return false;
+            for (const ExprId user : users_[id]) {
+                if (matches_[user] || absorbs(user, variable)) continue;
+                const Op op = graph_[user].op;
+                if ((op != Op::multiply && op != Op::negate) || graph_[user].type != Type::scalar)
+                    return false;
+                carries[user.index] = true;
             }
-            default: return false;
-            }
-        });
+        }
+        return true;
+    }
+
+    /// True for a sum in which x^2 and what stands beside it have one sign.
+    bool absorbs(ExprId id, ExprId variable) const
+    {
+        const Op op = graph_[id].op;
+        if (op != Op::add && op != Op::subtract && op != Op::lerp) return false;
+        if (graph_[id].type != Type::scalar) return false;
+        const auto parts = split(subject_.sums[id], variable, 2);
+        return parts && !parts->constant.empty() &&
+               !opposite(bounds(parts->constant, subject_.ranges),
+                         bounds(parts->slope, subject_.ranges));
     }
 
     const Subject& subject_;
     const Graph& graph_;
     Facts<Expr, std::vector<ExprId>> users_;
-    Facts<Expr, std::optional<Match>> matches_;
+    Matches matches_;
 };
 
 }  // namespace
@@ -193,9 +230,6 @@ Subject subject(const Module& module, const Function& function, std::vector<bool
             std::move(complemented)};
 }
 
-Facts<Expr, std::optional<Match>> match_rules(const Subject& subject)
-{
-    return Matcher{subject}.run();
-}
+Matches match_rules(const Subject& subject) { return Matcher{subject}.run(); }
 
 }  // namespace lobe::optimize

@@ -74,6 +74,7 @@ Subject subject(const ir::Module& module, const ir::Function& function,
                 std::vector<bool> complemented);
 
 /// The rule for every expression that one fits. A product of sums counts as a sum.
-Facts<ir::Expr, std::optional<Match>> match_rules(const Subject& subject);
+using Matches = Facts<ir::Expr, std::optional<Match>>;
+Matches match_rules(const Subject& subject);
 
 }  // namespace lobe::optimize

@@ -25,7 +25,13 @@ namespace {
 /// Builds replacements in the new graph out of what old factors became.
 class Builder {
 public:
-    Builder(Rebuild& rebuild, const Subject& subject) : rebuild_{rebuild}, subject_{subject} {}
+    Builder(Rebuild& rebuild, const Subject& subject, Span span)
+        : rebuild_{rebuild}, subject_{subject}, span_{span}
+    {
+    }
+
+    /// The old expressions that the replacement is built from.
+    std::vector<ExprId> reads;
 
     /// rest + slope * (1 - variable^degree)
     ExprId replacement(const Match& match, ExprId before)
@@ -36,19 +42,25 @@ public:
         const Sum slope = negative ? negate(match.slope) : match.slope;
         if (slope.size() != 1 || !slope[0].factors.empty() || slope[0].coefficient != 1)
             product = apply(Op::multiply, sum(slope, before), product);
-        if (match.rest.empty()) return negative ? graph().apply(Op::negate, {product}) : product;
+        if (match.rest.empty())
+            return negative ? graph().apply(Op::negate, {product}, span_) : product;
         const ExprId rest = sum(match.rest, before);
         return apply(negative ? Op::subtract : Op::add, rest, product);
     }
 
 private:
     Graph& graph() { return rebuild_.graph; }
-    ExprId apply(Op op, ExprId a, ExprId b) { return graph().apply(op, {a, b}); }
+    ExprId apply(Op op, ExprId a, ExprId b) { return graph().apply(op, {a, b}, span_); }
+    ExprId read(ExprId old_id)
+    {
+        reads.push_back(old_id);
+        return rebuild_.moved(old_id);
+    }
 
     /// 1 - variable^degree from its best source.
     ExprId complement(const Match& match)
     {
-        const ExprId x = rebuild_.moved(match.variable);
+        const ExprId x = read(match.variable);
         const ExprId one = graph().literal("1");
         const auto squared = [&](ExprId one_minus_x) {
             return apply(Op::multiply, one_minus_x, apply(Op::add, one, x));
@@ -82,7 +94,7 @@ private:
                 if ((monomial.coefficient > 0) != positive) continue;
                 const ExprId part = product(monomial, before);
                 if (!result)
-                    result = positive ? part : graph().apply(Op::negate, {part});
+                    result = positive ? part : graph().apply(Op::negate, {part}, span_);
                 else
                     result = apply(positive ? Op::add : Op::subtract, *result, part);
             }
@@ -98,7 +110,7 @@ private:
         std::optional<ExprId> result = find({{1, monomial.factors}}, before);
         if (!result)
             for (const ExprId factor : monomial.factors) {
-                const ExprId moved = rebuild_.moved(factor);
+                const ExprId moved = read(factor);
                 result = result ? apply(Op::multiply, *result, moved) : moved;
             }
         if (coefficient == 1) return *result;
@@ -113,12 +125,13 @@ private:
         for (std::size_t i = 0; i < before.index; ++i)
             if (rebuild_.old().graph[ExprId{i}].type == Type::scalar &&
                 std::ranges::equal(subject_.sums[ExprId{i}], wanted, same))
-                return rebuild_.moved(ExprId{i});
+                return read(ExprId{i});
         return std::nullopt;
     }
 
     Rebuild& rebuild_;
     const Subject& subject_;
+    Span span_;
 };
 
 /// One minus an operand, for a callee that asks for it.
@@ -135,6 +148,28 @@ ExprId complement_operand(Rebuild& rebuild, const std::vector<bool>& complemente
     return rebuild.graph.apply(Op::subtract, {rebuild.graph.literal("1"), rebuild.moved(operand)});
 }
 
+/// Logs the rules whose replacement is part of the function: a sum inside a sum that was rewritten
+/// is gone.
+void report(const Rebuild& rebuild, const Matches& matches,
+            const Facts<Expr, std::vector<ExprId>>& reads, std::vector<Application>& log)
+{
+    const Function& old = rebuild.old();
+    std::vector<bool> needed(old.graph.size());
+    needed[old.result.index] = true;
+    std::vector<Application> found;
+    for (std::size_t i = old.graph.size(); i-- > 0;) {
+        if (!needed[i]) continue;
+        const ExprId id{i};
+        if (matches[id]) {
+            found.push_back({matches[id]->rule, rebuild.id(), old.graph.span(id)});
+            for (const ExprId operand : reads[id]) needed[operand.index] = true;
+        } else {
+            for (const ExprId operand : old.graph.operands(id)) needed[operand.index] = true;
+        }
+    }
+    log.insert(log.end(), found.rbegin(), found.rend());
+}
+
 Module stabilize_once(const Module& module, std::vector<Application>& log)
 {
     const Complements complements = find_complements(module);
@@ -145,20 +180,19 @@ Module stabilize_once(const Module& module, std::vector<Application>& log)
         };
         auto found = subject(rebuild.old_module(), rebuild.old(), complemented);
         auto matches = match_rules(found);
-        // A sum inside a sum that was rewritten is dead; only what lives was applied.
-        const auto built = std::make_shared<std::vector<std::pair<ExprId, Application>>>();
-        rebuild.finished = [&log, built](const Facts<Expr, int>& uses) {
-            for (const auto& [id, application] : *built)
-                if (uses[id] > 0) log.push_back(application);
+        const auto reads =
+            std::make_shared<Facts<Expr, std::vector<ExprId>>>(rebuild.old().graph.size());
+        const auto known = std::make_shared<const Subject>(std::move(found));
+        const auto rules = std::make_shared<const Matches>(std::move(matches));
+        rebuild.finished = [&rebuild, &log, reads, rules] { report(rebuild, *rules, *reads, log); };
+        return [&rebuild, reads, known, rules](ExprId id) {
+            const auto& match = (*rules)[id];
+            if (!match) return rebuild.copy(id);
+            Builder builder{rebuild, *known, rebuild.old().graph.span(id)};
+            const ExprId result = builder.replacement(*match, id);
+            (*reads)[id] = builder.reads;
+            return result;
         };
-        return
-            [&rebuild, built, known = std::move(found), matches = std::move(matches)](ExprId id) {
-                if (!matches[id]) return rebuild.copy(id);
-                const ExprId result = Builder{rebuild, known}.replacement(*matches[id], id);
-                const Span span = rebuild.old().graph.span(id);
-                built->push_back({result, {matches[id]->rule, rebuild.id(), span}});
-                return result;
-            };
     });
 }
 
