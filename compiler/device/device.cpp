@@ -102,16 +102,12 @@ Work start(std::shared_ptr<Lane> lane, std::uint32_t groups, std::uint32_t count
 
 std::vector<DeviceFacts> list_devices(std::string& why)
 {
-    const auto instance = Instance::open(why);
-    if (!instance) return {};
     std::vector<DeviceFacts> facts;
-    for (const PhysicalDevice& device : physical_devices(*instance, why))
-        facts.push_back(device.facts);
+    for (const PhysicalDevice& device : physical_devices(why)) facts.push_back(device.facts);
     return facts;
 }
 
 struct Device::State {
-    std::shared_ptr<const Instance> instance;
     PhysicalDevice physical;
     Limits limits;
 
@@ -156,7 +152,7 @@ std::shared_ptr<Lane> Device::State::borrow(std::string& why)
     }
     ++lanes;
     lock.unlock();
-    std::shared_ptr<Lane> lane = Lane::open(instance, physical, limits.always_stage, why);
+    std::shared_ptr<Lane> lane = Lane::open(physical, limits.always_stage, why);
     if (!lane) forget_lane();
     return lane;
 }
@@ -196,9 +192,7 @@ std::optional<Device> Device::open(std::string_view selector, std::string& why,
                                    const Limits& limits)
 {
     auto state = std::make_unique<State>();
-    state->instance = Instance::open(why);
-    if (!state->instance) return std::nullopt;
-    const std::vector<PhysicalDevice> devices = physical_devices(*state->instance, why);
+    const std::vector<PhysicalDevice> devices = physical_devices(why);
     if (devices.empty()) return std::nullopt;
     const auto selected = select_device(devices, selector, why);
     if (!selected) return std::nullopt;

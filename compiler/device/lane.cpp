@@ -5,8 +5,7 @@
 #include <limits>
 
 namespace lobe::device {
-std::shared_ptr<Lane> Lane::open(std::shared_ptr<const Instance> instance,
-                                 const PhysicalDevice& physical, bool always_stage,
+std::shared_ptr<Lane> Lane::open(const PhysicalDevice& physical, bool always_stage,
                                  std::string& why)
 {
     constexpr float priority = 1.0F;
@@ -40,7 +39,7 @@ std::shared_ptr<Lane> Lane::open(std::shared_ptr<const Instance> instance,
         why = std::move(*failure);
         return nullptr;
     }
-    std::shared_ptr<Lane> lane{new Lane{std::move(instance), physical, device}};
+    std::shared_ptr<Lane> lane{new Lane{physical, device}};
     lane->input_ = Channel{device, physical.memory, always_stage};
     lane->output_ = Channel{device, physical.memory, always_stage};
     Failure failure = lane->prepare_descriptors();
@@ -50,9 +49,7 @@ std::shared_ptr<Lane> Lane::open(std::shared_ptr<const Instance> instance,
     return nullptr;
 }
 
-Lane::Lane(std::shared_ptr<const Instance> instance, const PhysicalDevice& physical,
-           VkDevice device)
-    : instance_{std::move(instance)}, device_{device}
+Lane::Lane(const PhysicalDevice& physical, VkDevice device) : device_{device}
 {
     vkGetDeviceQueue(device, physical.queue_family, 0, &queue_);
 }

@@ -7,6 +7,7 @@
 #include "device/channel.h"
 #include "device/physical.h"
 
+#include <memory>
 #include <span>
 
 namespace lobe::device {
@@ -14,8 +15,7 @@ namespace lobe::device {
 class Lane {
 public:
     /// Null, with `why`, on failure.
-    static std::shared_ptr<Lane> open(std::shared_ptr<const Instance> instance,
-                                      const PhysicalDevice& physical, bool always_stage,
+    static std::shared_ptr<Lane> open(const PhysicalDevice& physical, bool always_stage,
                                       std::string& why);
     Lane(const Lane&) = delete;
     Lane& operator=(const Lane&) = delete;
@@ -32,7 +32,7 @@ public:
     void download(std::span<float> output) const;
 
 private:
-    Lane(std::shared_ptr<const Instance> instance, const PhysicalDevice& physical, VkDevice device);
+    Lane(const PhysicalDevice& physical, VkDevice device);
     Failure prepare_descriptors();
     Failure prepare_commands(std::uint32_t queue_family);
     void point_descriptors_at_buffers();
@@ -43,7 +43,6 @@ private:
         VkDevice handle;
         ~OwnedDevice() { vkDestroyDevice(handle, nullptr); }
     };
-    std::shared_ptr<const Instance> instance_;
     OwnedDevice device_;
     VkQueue queue_ = VK_NULL_HANDLE;
     OwnedSetLayout set_layout_;

@@ -106,7 +106,8 @@ char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + '
 
 bool contains_without_case(std::string_view text, std::string_view part)
 {
-    return std::ranges::search(text, part, {}, lower, lower).begin() != text.end();
+    return std::search(text.begin(), text.end(), part.begin(), part.end(),
+                       [](char a, char b) { return lower(a) == lower(b); }) != text.end();
 }
 
 /// `0 llvmpipe (LLVM 15.0.6, 256 bits); 1 NVIDIA H100`
@@ -120,14 +121,16 @@ std::string names_of(const std::vector<PhysicalDevice>& devices)
 
 }  // namespace
 
-std::vector<PhysicalDevice> physical_devices(const Instance& instance, std::string& why)
+std::vector<PhysicalDevice> physical_devices(std::string& why)
 {
+    const VkInstance vulkan = instance(why);
+    if (vulkan == VK_NULL_HANDLE) return {};
     std::uint32_t size = 0;
     std::vector<VkPhysicalDevice> handles;
-    VkResult result = vkEnumeratePhysicalDevices(instance.get(), &size, nullptr);
+    VkResult result = vkEnumeratePhysicalDevices(vulkan, &size, nullptr);
     if (result == VK_SUCCESS) {
         handles.resize(size);
-        result = vkEnumeratePhysicalDevices(instance.get(), &size, handles.data());
+        result = vkEnumeratePhysicalDevices(vulkan, &size, handles.data());
         handles.resize(size);
     }
     std::vector<PhysicalDevice> devices;

@@ -17,8 +17,9 @@ struct PhysicalDevice {
     DeviceFacts facts;
 };
 
-/// Those with Vulkan 1.1 and a compute queue, in Vulkan's order. Empty, with `why`, if none.
-std::vector<PhysicalDevice> physical_devices(const Instance& instance, std::string& why);
+/// Those with Vulkan 1.1 and a compute queue, in Vulkan's order. Empty, with `why`, if there is
+/// none.
+std::vector<PhysicalDevice> physical_devices(std::string& why);
 
 /// The position of what `selector` means; see Device::open. `devices` is not empty.
 std::optional<std::size_t> select_device(const std::vector<PhysicalDevice>& devices,

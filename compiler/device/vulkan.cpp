@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <mutex>
+
 namespace lobe::device {
 
 std::string_view name_of(VkResult result)
@@ -38,8 +40,13 @@ Failure failure_of(std::string_view call, VkResult result)
     return fmt::format("{}: VkResult {}", call, static_cast<int>(result));
 }
 
-std::shared_ptr<Instance> Instance::open(std::string& why)
+VkInstance instance(std::string& why)
 {
+    static std::mutex mutex;
+    static VkInstance kept = VK_NULL_HANDLE;
+    const std::lock_guard lock{mutex};
+    if (kept != VK_NULL_HANDLE) return kept;
+
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
     application.pApplicationName = "lobe";
@@ -47,16 +54,14 @@ std::shared_ptr<Instance> Instance::open(std::string& why)
     VkInstanceCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     create.pApplicationInfo = &application;
-    VkInstance handle = VK_NULL_HANDLE;
-    const VkResult result = vkCreateInstance(&create, nullptr, &handle);
-    if (result == VK_SUCCESS) return std::make_shared<Instance>(handle);
+    const VkResult result = vkCreateInstance(&create, nullptr, &kept);
     // The loader's way to say that it found no driver that it could load.
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
         why = "no Vulkan driver is installed; the package `mesa-vulkan-drivers` has one that "
               "needs no graphics card";
-    else
-        why = *failure_of("vkCreateInstance", result);
-    return nullptr;
+    else if (auto failure = failure_of("vkCreateInstance", result))
+        why = std::move(*failure);
+    return result == VK_SUCCESS ? kept : VK_NULL_HANDLE;
 }
 
 }  // namespace lobe::device

@@ -3,7 +3,6 @@
 
 #include <vulkan/vulkan.h>
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,21 +57,9 @@ using OwnedDescriptorPool = Owned<VkDescriptorPool, vkDestroyDescriptorPool>;
 using OwnedCommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
 using OwnedFence = Owned<VkFence, vkDestroyFence>;
 
-/// The connection to the loader and its drivers. Shared: everything of a device needs it alive.
-class Instance {
-public:
-    /// Null, with `why`, when there is no driver.
-    static std::shared_ptr<Instance> open(std::string& why);
-
-    explicit Instance(VkInstance handle) : handle_{handle} {}
-    Instance(const Instance&) = delete;
-    Instance& operator=(const Instance&) = delete;
-    ~Instance() { vkDestroyInstance(handle_, nullptr); }
-
-    VkInstance get() const { return handle_; }
-
-private:
-    VkInstance handle_;
-};
+/// The connection to the loader and its drivers, made once and kept until the process ends: a
+/// driver that is unloaded leaves memory behind, and takes its time to load again. Null, with
+/// `why`, when there is no driver; the next call looks again.
+VkInstance instance(std::string& why);
 
 }  // namespace lobe::device
