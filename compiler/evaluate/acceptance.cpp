@@ -57,6 +57,7 @@ public:
     Acceptance inverse_square_root(const Acceptance& x) const;
     Acceptance square_root(const Acceptance& x) const;
     Acceptance exponential(const Acceptance& x, Interval exact) const;
+    Interval logarithm_reads(const Acceptance& x) const;
     Acceptance logarithm(const Acceptance& x, Interval exact) const;
     Acceptance power(const Acceptance& x, const Acceptance& y) const;
     Acceptance guarded_power(const Acceptance& x, const Acceptance& y) const;
@@ -218,6 +219,15 @@ Acceptance Device::exponential(const Acceptance& x, Interval exact) const
     return {std::max(result.low, 0.0), result.high, result.undefined};
 }
 
+/// What a logarithm may see of x. A denormal may be flushed to 0, and devices that take the
+/// exponent out of the bits read it as nearly the least normal number instead (log2 of 1e-45 is
+/// -126.9 on lavapipe): all between is allowed.
+Interval Device::logarithm_reads(const Acceptance& x) const
+{
+    if (x.low >= rules_.least_normal || x.high <= 0) return bounds(x);
+    return {0, std::max(x.high, rules_.least_normal)};
+}
+
 /// log2 x or log x. Below 0 undefined; so is 0, where only `power` may look.
 Acceptance Device::logarithm(const Acceptance& x, Interval exact) const
 {
@@ -234,7 +244,7 @@ Acceptance Device::power(const Acceptance& x, const Acceptance& y) const
 {
     const bool undefined = x.undefined || y.undefined || x.low < 0 || (x.low <= 0 && y.low <= 0);
     if (x.high <= 0) return {0, undefined ? infinity : 0, undefined};
-    Acceptance log = logarithm(x, evaluate::log2(bounds(x)));
+    Acceptance log = logarithm(x, evaluate::log2(logarithm_reads(x)));
     // log2 of what may be 0 is as low as can be: 2^(y log2 0) is 0.
     if (x.low <= 0) log.low = -infinity;
     const Acceptance exponent = multiply(y, log);
@@ -485,8 +495,8 @@ Acceptance apply(const Rules& rules, TapeOp op, const Acceptance& a, const Accep
     case TapeOp::inverse_square_root: return device.inverse_square_root(a);
     case TapeOp::exp2: return device.exponential(a, exp2(bounds(a)));
     case TapeOp::exp: return device.exponential(a, exp(bounds(a)));
-    case TapeOp::log2: return device.logarithm(a, log2(bounds(a)));
-    case TapeOp::log: return device.logarithm(a, log(bounds(a)));
+    case TapeOp::log2: return device.logarithm(a, log2(device.logarithm_reads(a)));
+    case TapeOp::log: return device.logarithm(a, log(device.logarithm_reads(a)));
     case TapeOp::sine: return device.wave(a, sine(bounds(a)));
     case TapeOp::cosine: return device.wave(a, cosine(bounds(a)));
     case TapeOp::tangent: return device.tangent(a);
