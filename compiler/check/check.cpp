@@ -2,6 +2,7 @@
 #include "check/check.h"
 
 #include "check/assemble.h"
+#include "check/flatten.h"
 #include "check/functions.h"
 #include "check/modules.h"
 #include "check/names.h"
@@ -15,8 +16,14 @@
 namespace lobe::check {
 namespace {
 
-/// Past this many errors a reader is not helped by more.
-constexpr int error_limit = 20;
+/// Past this many errors a reader is not helped by more: what is shown, and what is looked for.
+constexpr int shown_errors = 20;
+constexpr int most_errors = 100;
+
+/// What one function, and all of them together, may come to once calls are taken in. Calls within
+/// calls multiply, so a short text can mean an endless program.
+constexpr std::uint64_t most_operations = 1 << 16;
+constexpr std::uint64_t most_operations_together = 1 << 24;
 
 class Checking {
 public:
@@ -29,9 +36,16 @@ public:
     {
         for (const std::size_t index : lowering_order(program_, diagnostics_)) {
             if (enough()) return;
-            Lowered lowered = lower_callable(program_, index, sources_, diagnostics_);
-            program_.callables[index].function = settle(lowered);
-            warn_undocumented(program_.callables[index], lowered.draft.function);
+            // An imported module's warnings are its own affair.
+            Callable& callable = program_.callables[index];
+            Diagnostics found;
+            Lowered lowered = lower_callable(program_, index, sources_, found);
+            callable.function = settle(lowered, found);
+            const bool own = callable.file + 1 == program_.files.size();
+            for (const Diagnostic& diagnostic : found.all())
+                if (own || severity(diagnostic.code) == Severity::error)
+                    diagnostics_.report(diagnostic);
+            if (own) warn_undocumented(callable, lowered.draft.function);
         }
     }
 
@@ -46,7 +60,7 @@ public:
                 const auto number = declarations_.effects.size() + 1;
                 Lowered lowered = lower_effect(program_, *effect, number, sources_, diagnostics_);
                 const std::string condition = lowered.draft.function.formula;
-                const auto function = settle(lowered);
+                const auto function = settle(lowered, diagnostics_);
                 declarations_.effects.push_back({effect->name, function.value_or(ir::FunctionId{}),
                                                  condition, effect->name_span});
             }
@@ -56,15 +70,41 @@ public:
     Declarations take() { return std::move(declarations_); }
 
 private:
-    bool enough() const { return diagnostics_.error_count() >= error_limit; }
+    bool enough() const { return diagnostics_.error_count() >= most_errors; }
 
     /// Proves what has to be proved of a body and enters its function. Nothing if either failed.
-    std::optional<ir::FunctionId> settle(Lowered& lowered)
+    std::optional<ir::FunctionId> settle(Lowered& lowered, Diagnostics& diagnostics)
     {
-        const bool proved = prove(program_, lowered.draft, sources_, diagnostics_);
+        const ir::Function& draft = lowered.draft.function;
+        const std::uint64_t size = flat_size(program_.sizes, draft);
+        operations_ += size;
+        if (size > most_operations || operations_ > most_operations_together) {
+            report_size(draft, size, diagnostics);
+            return std::nullopt;
+        }
+        const bool proved = prove(program_, lowered.draft, sources_, diagnostics);
         if (!lowered.good || !proved) return std::nullopt;
         program_.functions.push_back(lowered.draft.finish());
+        program_.sizes.push_back(size);
         return ir::FunctionId{program_.functions.size() - 1};
+    }
+
+    void report_size(const ir::Function& draft, std::uint64_t size, Diagnostics& diagnostics)
+    {
+        if (size <= most_operations) {
+            if (reported_together_) return;
+            reported_together_ = true;
+        }
+        diagnostics.report(
+            {.code = Code::expansion_too_large,
+             .message = fmt::format("`{}` is too large to check", draft.name),
+             .primary = {draft.span,
+                         size > most_operations
+                             ? fmt::format("more than {} operations once its calls are taken in",
+                                           most_operations)
+                             : fmt::format("with it, the module has more than {} operations",
+                                           most_operations_together)},
+             .notes = {"each call counts with all that it calls"}});
     }
 
     void lower_model_item(const syntax::Item& item, const syntax::ModelItem& model)
@@ -77,16 +117,15 @@ private:
         result.doc = syntax::doc_text(item.comments);
         std::vector<Lowered> outputs = lower_model(program_, item, model, sources_, diagnostics_);
         for (std::size_t i = 0; i < outputs.size(); ++i)
-            if (const auto function = settle(outputs[i]))
+            if (const auto function = settle(outputs[i], diagnostics_))
                 result.outputs.push_back({model.outputs[i].name.text, *function});
         declarations_.models.push_back(std::move(result));
     }
 
     void warn_undocumented(const Callable& callable, const ir::Function& function)
     {
-        const bool own = callable.file + 1 == program_.files.size();
-        if (!own || callable.form != nullptr || !function.doc.empty() ||
-            !function.citations.empty() || callable.name.empty())
+        if (callable.form != nullptr || !function.doc.empty() || !function.citations.empty() ||
+            callable.name.empty())
             return;
         diagnostics_.report(
             {.code = Code::undocumented_term,
@@ -100,12 +139,27 @@ private:
     const Sources& sources_;
     Diagnostics& diagnostics_;
     Declarations declarations_;
+    std::uint64_t operations_ = 0;
+    bool reported_together_ = false;
 };
 
-}  // namespace
+/// The first errors by place, and all warnings; the last error says how many are left out.
+void forward(const Diagnostics& found, Diagnostics& diagnostics)
+{
+    int errors = 0;
+    for (Diagnostic& diagnostic : found.sorted()) {
+        const bool is_error = severity(diagnostic.code) == Severity::error;
+        if (is_error && ++errors > shown_errors) continue;
+        if (is_error && errors == shown_errors && found.error_count() > shown_errors)
+            diagnostic.notes.push_back(fmt::format("this is error {}; {} more are not shown",
+                                                   shown_errors,
+                                                   found.error_count() - shown_errors));
+        diagnostics.report(std::move(diagnostic));
+    }
+}
 
-std::optional<ir::Module> check(Sources& sources, std::uint32_t root, const Loader& loader,
-                                Diagnostics& diagnostics)
+std::optional<ir::Module> check_program(Sources& sources, std::uint32_t root, const Loader& loader,
+                                        Diagnostics& diagnostics)
 {
     Program program;
     load_files(program, sources, root, loader, diagnostics);
@@ -120,6 +174,17 @@ std::optional<ir::Module> check(Sources& sources, std::uint32_t root, const Load
     report_unused_imports(program, diagnostics);
     ir::Module module = assemble(program, checking.take(), sources);
     assert(!ir::verify(module));
+    return module;
+}
+
+}  // namespace
+
+std::optional<ir::Module> check(Sources& sources, std::uint32_t root, const Loader& loader,
+                                Diagnostics& diagnostics)
+{
+    Diagnostics found;
+    auto module = check_program(sources, root, loader, found);
+    forward(found, diagnostics);
     return module;
 }
 

@@ -111,9 +111,12 @@ std::string one_line(std::string_view text)
         if (text.substr(i, 2) == "//") i = std::min(text.find('\n', i), text.size());
         const char c = i < text.size() ? text[i] : ' ';
         const bool space = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+        const bool inside = result.empty() || result.back() == ' ' || result.back() == '(';
+        // A line break after `(` or before `)` is layout, not text.
+        if (c == ')' && !result.empty() && result.back() == ' ') result.pop_back();
         if (!space)
             result += c;
-        else if (!result.empty() && result.back() != ' ')
+        else if (!inside)
             result += ' ';
     }
     if (!result.empty() && result.back() == ' ') result.pop_back();

@@ -90,6 +90,11 @@ private:
         }
     }
 
+    static bool is_exported(NameKind kind)
+    {
+        return kind == NameKind::callable || kind == NameKind::parameter;
+    }
+
     void declare_import(const syntax::Import& import, const std::optional<std::size_t>& from)
     {
         for (const syntax::Identifier& name : import.names) {
@@ -98,8 +103,8 @@ private:
                 const File& other = *program_.files[*from];
                 const auto found = other.names.find(name.text);
                 if (found != other.names.end() && !found->second.imported &&
-                    found->second.kind == NameKind::callable) {
-                    declared.kind = NameKind::callable;
+                    is_exported(found->second.kind)) {
+                    declared.kind = found->second.kind;
                     declared.index = found->second.index;
                 } else if (!other.broken) {
                     report_not_exported(name, other);
@@ -111,23 +116,24 @@ private:
 
     void report_not_exported(const syntax::Identifier& name, const File& other)
     {
-        std::vector<std::string> terms;
+        std::vector<std::string> exported;
         for (const auto& [known, declared] : other.names)
-            if (declared.kind == NameKind::callable && !declared.imported) terms.push_back(known);
-        Diagnostic diagnostic{.code = Code::not_exported,
-                              .message =
-                                  fmt::format("module `{}` declares no term `{}`{}", other.name,
-                                              name.text, did_you_mean(name.text, terms)),
-                              .primary = {name.span, ""},
-                              .fix = rename_fix(name.text, name.span, terms)};
+            if (is_exported(declared.kind) && !declared.imported) exported.push_back(known);
+        Diagnostic diagnostic{
+            .code = Code::not_exported,
+            .message = fmt::format("module `{}` declares no `{}` that can be imported{}",
+                                   other.name, name.text, did_you_mean(name.text, exported)),
+            .primary = {name.span, ""},
+            .fix = rename_fix(name.text, name.span, exported)};
         if (const auto found = other.names.find(name.text); found != other.names.end()) {
-            diagnostic.secondary.push_back({found->second.span, found->second.imported
-                                                                    ? "it only imports it, here"
-                                                                    : "this is not a term"});
+            diagnostic.secondary.push_back(
+                {found->second.span, found->second.imported
+                                         ? "it only imports it, here"
+                                         : "this is neither term nor parameter"});
             diagnostic.notes.push_back(
                 found->second.imported
                     ? "names are imported from the module that declares them"
-                    : "terms and forms are imported, and the parameters they use come along");
+                    : "terms, forms and parameters are imported; models and their outputs are not");
         }
         diagnostics_.report(std::move(diagnostic));
     }

@@ -88,7 +88,7 @@ struct Program {
     std::vector<ir::Parameter> parameters;  ///< of all files; pruned at the end
     std::vector<bool> parameter_broken;
     std::vector<ir::Function> functions;  ///< callees first
-    std::vector<ir::Source> cited;        ///< sources that lowered functions cite
+    std::vector<std::uint64_t> sizes;     ///< of each function, its calls taken in
 
     File& root() { return *files.back(); }
 };

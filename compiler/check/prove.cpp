@@ -102,7 +102,8 @@ public:
                                  std::min(range.high, declared->high)};
             range = both.low <= both.high ? both : *declared;
         }
-        return range;
+        // A range has no negative zeros.
+        return {range.low + 0.0, range.high + 0.0};
     }
 
 private:
