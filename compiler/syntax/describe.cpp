@@ -1,4 +1,5 @@
 // The wording of everything that forms no token: what was seen, and what to write instead.
+#include "base/utf8.h"
 #include "syntax/characters.h"
 #include "syntax/lex.h"
 
@@ -25,7 +26,7 @@ constexpr std::array wordings{
     Wording{Trouble::control, Code::unexpected_character, "a control character stands in the text",
             "this does not print", "remove it", nullptr},
     Wording{Trouble::byte_order_mark, Code::unexpected_character,
-            "a byte order mark stands inside the text", "U+FEFF, which does not print",
+            "a byte order mark stands inside the text", "does not print",
             "it may only be the first character of a file; remove it here", nullptr},
     Wording{Trouble::text_direction, Code::unexpected_character,
             "a character that reorders text stands here",
@@ -37,8 +38,8 @@ constexpr std::array wordings{
             "comments and strings",
             nullptr},
     Wording{Trouble::carriage_return, Code::unexpected_character,
-            "a carriage return without a line feed", "this does not end a line",
-            "end lines with LF or CR LF", nullptr},
+            "a carriage return without a line feed", "ends no line", "end lines with LF or CR LF",
+            nullptr},
     Wording{Trouble::semicolon, Code::unexpected_character, "`;` is not part of the language",
             "a declaration ends where the next one starts", "", ""},
     Wording{Trouble::ampersands, Code::unexpected_character, "`&&` is not an operator", "", "",
@@ -100,6 +101,21 @@ std::string excerpt(std::string_view text)
     return std::string{text.substr(0, end)} + "...";
 }
 
+/// Characters that do not show, or not as what they are, are named by their number.
+std::string label(const Problem& problem, const Wording& wording, std::string_view text)
+{
+    switch (problem.trouble) {
+    case Trouble::control:
+    case Trouble::byte_order_mark:
+    case Trouble::text_direction:
+    case Trouble::look_alike:
+    case Trouble::not_ascii: break;
+    default: return std::string{wording.label};
+    }
+    const auto code = static_cast<unsigned>(first_character(text.substr(problem.begin)).code);
+    return fmt::format("U+{:04X}{}{}", code, wording.label.empty() ? "" : " ", wording.label);
+}
+
 std::optional<std::string> replacement(const Problem& problem, const Wording& wording,
                                        std::string_view text)
 {
@@ -130,10 +146,11 @@ Diagnostic describe(const Problem& problem, std::string_view text, std::uint32_t
     Diagnostic result;
     result.code = wording.code;
     result.message = fmt::format(fmt::runtime(wording.message), written);
-    result.primary = {span, std::string{wording.label}};
+    result.primary = {span, label(problem, wording, text)};
     if (!wording.help.empty()) result.helps.emplace_back(wording.help);
     if (auto edit = replacement(problem, wording, text)) {
-        const std::string what = edit->empty() ? "remove it" : fmt::format("write `{}`", *edit);
+        const std::string_view word{edit->data(), edit->size() - (edit->ends_with(' ') ? 1 : 0)};
+        const std::string what = word.empty() ? "remove it" : fmt::format("write `{}`", word);
         result.fix = Fix{span, *edit,
                          problem.trouble == Trouble::unterminated_string ? "close the text" : what};
     }
