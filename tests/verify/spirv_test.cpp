@@ -114,3 +114,35 @@ TEST_CASE("SPIRV-Cross says the same in four languages")
     CHECK(text(CrossTarget::hlsl50).find("RWByteAddressBuffer") != std::string::npos);
     CHECK(text(CrossTarget::msl21).find("kernel void") != std::string::npos);
 }
+
+TEST_CASE("what SPIRV-Cross makes of any dialect is taken by glslang again")
+{
+    for (const HarnessText& harness : harness_texts) {
+        if (harness.float16) continue;
+        CAPTURE(harness.name);
+        const auto spirv = compile(harness.text, harness.dialect, Stage::compute).spirv;
+        for (const auto& words : {spirv, optimize(spirv).spirv}) {
+            const auto crossed = [&words](CrossTarget target) {
+                return cross_compile(words, target).text;
+            };
+            const std::string glsl = crossed(CrossTarget::glsl450);
+            CHECK(compile(glsl, Dialect::glsl, Stage::compute).accepted);
+            // Its push constant is a plain uniform, which Vulkan would not take.
+            const std::string essl = crossed(CrossTarget::essl310);
+            CHECK(parse_only(essl, Dialect::essl, Stage::compute).accepted);
+            const std::string hlsl = crossed(CrossTarget::hlsl50);
+            CHECK(compile(hlsl, Dialect::hlsl, Stage::compute).accepted);
+        }
+    }
+}
+
+TEST_CASE("ESSL 3.10 has no half floats, and glslang or SPIRV-Cross says so")
+{
+    REQUIRE(harness_texts[1].float16);
+    const auto spirv = compile(harness_texts[1].text, Dialect::glsl, Stage::compute).spirv;
+    Verdict verdict = cross_compile(spirv, CrossTarget::essl310);
+    if (verdict.accepted) verdict = parse_only(verdict.text, Dialect::essl, Stage::compute);
+    CHECK_FALSE(verdict.accepted);
+    CHECK_FALSE(verdict.messages.empty());
+    CHECK(cross_compile(spirv, CrossTarget::msl21).accepted);
+}
