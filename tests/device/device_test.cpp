@@ -223,6 +223,36 @@ void main()
     }
 }
 
+TEST_CASE("more numbers than a storage buffer may have are run in turns too")
+{
+    // 33 inputs per point make 138 MB, more than the 128 MiB that a device must take and llvmpipe
+    // takes, although a million points are few enough.
+    auto device = open_default();
+    constexpr std::uint32_t count = (1U << 20U) - 1;
+    constexpr std::size_t inputs = 33;
+    std::vector<float> input(inputs * count);
+    for (std::size_t i = 0; i < count; ++i) input[inputs * i + 32] = static_cast<float>(i);
+    const std::string text = R"(#version 450
+layout(local_size_x = 64) in;
+layout(std430, set = 0, binding = 0) readonly buffer Inputs { float x[]; } points;
+layout(std430, set = 0, binding = 1) writeonly buffer Outputs { float y[]; } results;
+layout(push_constant) uniform Push { uint count; };
+void main()
+{
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= count) return;
+    results.y[i] = points.x[33 * i + 32];
+}
+)";
+    const auto compiled = verify::compile(text, verify::Dialect::glsl, verify::Stage::compute);
+    REQUIRE(compiled.accepted);
+    std::vector<float> output(count, -1.0F);
+    REQUIRE_FALSE(device.run(compiled.spirv, "main", input, output, count));
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < count; ++i) wrong += output[i] != static_cast<float>(i);
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("what cannot be divided among points is refused")
 {
     auto device = open_default({.points = 10});
