@@ -54,8 +54,10 @@ Framed frame(const Artifact& artifact, const Target& target)
     Record values{{}, {{"calls", lines(artifact.calls)}}};
     std::string path = "frame/hlsl.hlsl";
     if (target.language == Language::hlsl) {
-        values.lists["prelude"] = lines(target.name == "ue4" ? std::vector{unreal_prelude()}
-                                                             : std::vector<std::string>{});
+        std::vector<std::string> prelude;
+        if (target.name == "ue4")
+            prelude = {unreal_prelude(), render_embedded("ue4/frame.ush", {}).text};
+        values.lists["prelude"] = lines(prelude);
     } else {
         path = "frame/glsl.frag";
         const bool es = target.language == Language::essl;

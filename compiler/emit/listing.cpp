@@ -10,6 +10,8 @@
 namespace lobe::emit {
 namespace {
 
+constexpr std::size_t comment_width = 96;
+
 constexpr ir::Op guarded_ops[] = {ir::Op::guarded_power, ir::Op::guarded_smoothstep,
                                   ir::Op::guarded_normalize};
 
@@ -117,36 +119,52 @@ std::vector<Record> Listing::statements(const std::vector<Statement>& statements
     return records;
 }
 
+std::string Listing::citation(const ir::Citation& citation, const Span& place) const
+{
+    std::string text = citation.source;
+    if (!citation.locator.empty()) text += " " + citation.locator;
+    // The declaration in the same file, for two modules may use one short name.
+    const ir::Source* source = nullptr;
+    for (const ir::Source& declared : module_.sources)
+        if (declared.name == citation.source &&
+            (source == nullptr || declared.span.source == place.source))
+            source = &declared;
+    return source == nullptr ? text : text + ": " + source->text;
+}
+
+std::vector<std::string> Listing::documentation(const std::string& doc,
+                                                const std::vector<ir::Citation>& citations,
+                                                const Span& place) const
+{
+    std::vector<std::string> text = paragraphs(doc, comment_width);
+    for (const ir::Citation& cited : citations)
+        for (std::string& line : fill(citation(cited, place), comment_width))
+            text.push_back(std::move(line));
+    return text;
+}
+
 std::vector<Record> Listing::comment(const ir::Function& function) const
 {
-    std::vector<std::string> text = paragraphs(function.doc, 96);
-    for (const ir::Citation& citation : function.citations) {
-        std::string key = citation.source;
-        if (!citation.locator.empty()) key += " " + citation.locator;
-        // The declaration in the same file, for two modules may use one short name.
-        const ir::Source* source = nullptr;
-        for (const ir::Source& declared : module_.sources)
-            if (declared.name == citation.source &&
-                (source == nullptr || declared.span.source == function.span.source))
-                source = &declared;
-        for (std::string& line : fill(source == nullptr ? key : key + ": " + source->text, 96))
-            text.push_back(std::move(line));
-    }
-    if (!function.formula.empty()) {
-        std::string formula = "= " + function.formula;
-        for (std::string& line : fill(formula, 96)) text.push_back(std::move(line));
-    }
-    std::string expects;
+    std::vector<std::string> text = documentation(function.doc, function.citations, function.span);
+    const auto add = [&](const std::string& prose) {
+        for (std::string& line : fill(prose, comment_width)) text.push_back(std::move(line));
+    };
+    if (!function.formula.empty()) add("= " + function.formula);
+
+    // Fields and parameters have the ranges that their structures state.
+    std::string ranges;
     for (const ir::Input& input : function.inputs) {
         const std::string range = range_text(input.range);
-        if (range.empty() || input.quantity == ir::Quantity::direction) continue;
-        expects += fmt::format("{}{} in {}", expects.empty() ? "Expects " : ", ",
-                               input_name(dialect_, input), range);
+        if (range.empty() || input.origin != ir::Origin::argument ||
+            input.quantity == ir::Quantity::direction)
+            continue;
+        ranges += fmt::format("{}{} in {}", ranges.empty() ? "Expects " : ", ",
+                              input_name(dialect_, input), range);
     }
+    if (!ranges.empty()) ranges += ". ";
     const std::string range = range_text(function.range);
-    if (!expects.empty()) expects += ". ";
-    if (!range.empty()) expects += fmt::format("Returns {}.", range);
-    for (std::string& line : fill(expects, 96)) text.push_back(std::move(line));
+    if (!range.empty()) ranges += fmt::format("Returns {}.", range);
+    add(ranges);
     text.push_back(cite(function.span));
     return lines(text);
 }

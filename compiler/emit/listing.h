@@ -31,6 +31,10 @@ public:
     const std::string& name_of(ir::FunctionId id) const { return names_[id.index]; }
     /// `models/callisto.lobe:61`, never an absolute path.
     std::string cite(const Span& span) const;
+    /// Documentation as comment lines: prose, then citations, each with its source's text.
+    std::vector<std::string> documentation(const std::string& doc,
+                                           const std::vector<ir::Citation>& citations,
+                                           const Span& place) const;
     /// A tag for lines written for this place.
     int tag(const Span& span);
     /// Rendered marks as places: without overlaps, innermost first served, in order of lines.
@@ -39,6 +43,7 @@ public:
 private:
     Record function(const ir::Function& function, const std::string& name);
     std::vector<Record> comment(const ir::Function& function) const;
+    std::string citation(const ir::Citation& citation, const Span& place) const;
 
     const ir::Module& module_;
     const Sources& sources_;

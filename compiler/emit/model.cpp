@@ -98,9 +98,28 @@ std::vector<Record> member_records(const ir::Module& module, const Dialect& dial
     return records;
 }
 
-std::vector<Record> model_comment(const ir::Model& model, const Listing& listing)
+std::vector<Record> model_comment(const ir::Module& module, const ir::Model& model,
+                                  const Listing& listing)
 {
-    std::vector<std::string> text = paragraphs(model.doc, 96);
+    // Lines that start with a source's name are citations.
+    std::string prose;
+    std::vector<ir::Citation> citations;
+    for (std::string_view rest = model.doc; !rest.empty();) {
+        const auto end = rest.find('\n');
+        const std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+        const auto space = line.find(' ');
+        const bool cites = std::ranges::any_of(module.sources, [&](const ir::Source& source) {
+            return source.name == line.substr(0, space);
+        });
+        if (cites)
+            citations.push_back(
+                {std::string{line.substr(0, space)},
+                 std::string{space == std::string_view::npos ? "" : line.substr(space + 1)}});
+        else
+            prose += std::string{line} + "\n";
+    }
+    std::vector<std::string> text = listing.documentation(prose, citations, model.span);
     text.push_back(listing.cite(model.span));
     return lines(text);
 }

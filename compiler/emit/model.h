@@ -49,6 +49,7 @@ std::vector<Record> member_records(const ir::Module& module, const Dialect& dial
                                    const std::vector<Member>& members, bool defaults);
 
 /// Documentation of a model as comment lines.
-std::vector<Record> model_comment(const ir::Model& model, const Listing& listing);
+std::vector<Record> model_comment(const ir::Module& module, const ir::Model& model,
+                                  const Listing& listing);
 
 }  // namespace lobe::emit

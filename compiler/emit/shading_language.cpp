@@ -2,6 +2,7 @@
 // parameters with its defaults, one of surface fields, and a function from vectors to results.
 #include "emit/frame.h"
 #include "emit/model.h"
+#include "emit/wrap.h"
 
 #include <fmt/format.h>
 
@@ -44,11 +45,12 @@ public:
         const std::vector<Record> statements = entry(arguments, surface_type, parameters_type);
         Record record;
         record.tag = listing_.tag(model_.span);
-        record.texts = {
-            {"name", name},
-            {"result", result_type},
-            {"signature", fmt::format("{} {}({})", result_type, name, fmt::join(arguments, ", "))}};
-        record.lists["comment"] = model_comment(model_, listing_);
+        record.texts = {{"name", name},
+                        {"result", result_type},
+                        {"signature", wrap(fmt::format("{} {}({})", result_type, name,
+                                                       fmt::join(arguments, ", ")),
+                                           0, dialect_.indent)}};
+        record.lists["comment"] = model_comment(module_, model_, listing_);
         record.lists["surfaces"] =
             structure(surface_type, member_records(module_, dialect_, inputs_.surface, false));
         record.lists["parameters"] =

@@ -37,53 +37,35 @@ bool is_lit(const ModelInputs& inputs)
     });
 }
 
+/// Fields that the engine's context lacks.
+bool is_stable(Field field) { return !ir::facts(field).nameable; }
+
 /// The geometry and surface of a BxDF as expressions over the names in its scope, before or after
 /// SphereMaxNoH.
 class Phase {
 public:
-    enum class When {
-        before,
-        after
-    };
+    /// Stable fields of the light as a point, and the locals that hold them.
+    using Points = std::vector<std::pair<Field, std::string>>;
 
-    Phase(When when, std::string roughness) : when_(when), roughness_(std::move(roughness)) {}
+    /// `points` is what the phase before SphereMaxNoH left; nullptr is that phase.
+    Phase(std::string roughness, const Points* points)
+        : roughness_(std::move(roughness)), points_(points)
+    {
+    }
 
     TextGraph text;
 
-    ir::ExprId field(Field field)
+    /// Named where it is more than a name already.
+    ir::ExprId field(Field field, const std::string& name)
     {
-        ir::Graph& g = text.graph;
-        const auto clamped = [&](const std::string& name) {
-            const ir::ExprId raw = text.input(name, ir::Type::scalar);
-            return g.apply(ir::Op::clamp, {raw, g.literal("-1"), g.literal("1")});
-        };
-        switch (field) {
-        case Field::l: return vector("L");
-        case Field::v: return vector("V");
-        case Field::n: return vector("N");
-        case Field::x: return vector("X");
-        case Field::y: return vector("Y");
-        case Field::cos_i: return scalar("NoL");
-        case Field::cos_o: return scalar("NoV");
-        case Field::cos_h: return scalar("Context.NoH");
-        case Field::cos_d: return scalar("Context.VoH");
-        case Field::v_dot_l: return clamped("Context.VoL");
-        case Field::x_dot_l: return clamped("Context.XoL");
-        case Field::y_dot_l: return clamped("Context.YoL");
-        case Field::x_dot_v: return clamped("Context.XoV");
-        case Field::y_dot_v: return clamped("Context.YoV");
-        case Field::x_dot_h: return clamped("Context.XoH");
-        case Field::y_dot_h: return clamped("Context.YoH");
-        case Field::h: return ir::expand(g, field, frame());
-        case Field::sin2_h: {
-            const ir::ExprId cos = scalar("Context.NoH");
-            const ir::ExprId sum = g.apply(ir::Op::add, {g.literal("1"), cos});
-            return moved(field, g.apply(ir::Op::multiply, {one_minus(cos), sum}));
+        if (field == Field::h) {
+            const ir::ExprId h = ir::expand(text.graph, field, frame());
+            text.graph.set_name(h, "h");
+            return h;
         }
-        case Field::one_minus_cos_h: return moved(field, one_minus(scalar("Context.NoH")));
-        case Field::one_minus_cos_d: return moved(field, one_minus(scalar("Context.VoH")));
-        }
-        return {};
+        const ir::ExprId value = is_stable(field) ? stable(field) : plain(field);
+        text.graph.set_name(value, points_ != nullptr ? "Area" + name : name);
+        return value;
     }
 
     ir::ExprId surface(ir::SurfaceField field)
@@ -106,25 +88,59 @@ public:
 private:
     ir::ExprId vector(const std::string& name) { return text.input(name, ir::Type::vec3); }
     ir::ExprId scalar(const std::string& name) { return text.input(name, ir::Type::scalar); }
-    ir::ExprId one_minus(ir::ExprId cos)
-    {
-        return text.graph.apply(ir::Op::subtract, {text.graph.literal("1"), cos});
-    }
     ir::Frame frame() { return {vector("L"), vector("V"), vector("N"), {}, {}}; }
 
-    /// A stable field: from the vectors, or, where a light's size moved the cosines, from those.
-    ir::ExprId moved(Field field, ir::ExprId from_cosine)
+    ir::ExprId plain(Field field)
     {
-        ir::Graph& g = text.graph;
-        const ir::ExprId from_vectors = ir::expand(g, field, frame());
-        if (when_ == When::before) return from_vectors;
-        const ir::ExprId size = scalar("AreaLight.SphereSinAlpha");
-        const ir::ExprId is_sphere = g.apply(ir::Op::less, {g.literal("0"), size});
-        return g.apply(ir::Op::select, {is_sphere, from_cosine, from_vectors});
+        const auto clamped = [&](const std::string& name) {
+            ir::Graph& g = text.graph;
+            return g.apply(ir::Op::clamp, {scalar(name), g.literal("-1"), g.literal("1")});
+        };
+        switch (field) {
+        case Field::l: return vector("L");
+        case Field::v: return vector("V");
+        case Field::n: return vector("N");
+        case Field::x: return vector("X");
+        case Field::y: return vector("Y");
+        case Field::cos_i: return scalar("NoL");
+        case Field::cos_o: return scalar("NoV");
+        case Field::cos_h: return scalar("Context.NoH");
+        case Field::cos_d: return scalar("Context.VoH");
+        case Field::v_dot_l: return clamped("Context.VoL");
+        case Field::x_dot_l: return clamped("Context.XoL");
+        case Field::y_dot_l: return clamped("Context.YoL");
+        case Field::x_dot_v: return clamped("Context.XoV");
+        case Field::y_dot_v: return clamped("Context.YoV");
+        case Field::x_dot_h: return clamped("Context.XoH");
+        case Field::y_dot_h: return clamped("Context.YoH");
+        case Field::h:
+        case Field::sin2_h:
+        case Field::one_minus_cos_h:
+        case Field::one_minus_cos_d: break;
+        }
+        return {};
     }
 
-    When when_;
+    ir::ExprId stable(Field field)
+    {
+        ir::Graph& g = text.graph;
+        if (points_ == nullptr) return ir::expand(g, field, frame());
+        const ir::ExprId cos =
+            scalar(field == Field::one_minus_cos_d ? "Context.VoH" : "Context.NoH");
+        ir::ExprId moved = g.apply(ir::Op::subtract, {g.literal("1"), cos});
+        if (field == Field::sin2_h)
+            moved = g.apply(ir::Op::multiply, {moved, g.apply(ir::Op::add, {g.literal("1"), cos})});
+        std::string point;
+        for (const auto& [known, name] : *points_)
+            if (known == field) point = name;
+        const ir::ExprId size = scalar("AreaLight.SphereSinAlpha");
+        const ir::ExprId is_sphere = g.apply(ir::Op::less, {g.literal("0"), size});
+        g.set_name(is_sphere, "is_sphere");
+        return g.apply(ir::Op::select, {is_sphere, moved, scalar(point)});
+    }
+
     std::string roughness_;
+    const Points* points_;
 };
 
 class ModelFrame {
@@ -175,7 +191,7 @@ private:
         const std::string least = dialect_.literal(least_roughness);
 
         Record record{{{"name", listing_.unique(stem_ + "BxDF")}}, {}};
-        record.lists["comment"] = model_comment(model_, listing_);
+        record.lists["comment"] = model_comment(module_, model_, listing_);
         record.lists["roughness"] = {};
         if (rough) record.lists["roughness"] = {{{{"name", "Roughness"}, {"least", least}}, {}}};
         record.lists["widened"] = {};
@@ -189,10 +205,10 @@ private:
         record.lists["tangents"] = {};
         if (tangents) record.lists["tangents"] = {{{{"x", "X"}, {"y", "Y"}}, {}}};
         record.lists["isotropic"] = std::vector<Record>(tangents ? 0 : 1);
-        record.lists["before"] = phase(Phase::When::before, "Roughness", "LightColor");
-        record.lists["after"] =
-            rough_specular ? phase(Phase::When::after, "SpecularRoughness", "LightColor * Energy")
-                           : phase(Phase::When::after, "Roughness", "LightColor");
+        Scope scope = scope_of_body();
+        Phase::Points points;
+        record.lists["before"] = before(scope, points);
+        record.lists["after"] = after(scope, points, rough_specular);
         return record;
     }
 
@@ -216,48 +232,84 @@ private:
         return output.name == "transmission" ? "Transmission" : "Specular";
     }
 
-    std::vector<Record> phase(Phase::When when, const std::string& roughness,
-                              const std::string& light)
+    ir::ExprId call(Phase& phase, const ir::ModelOutput& output) const
     {
-        Phase phase{when, roughness};
+        return phase.text.call(module_, output.function, [&](const ir::Input& input) {
+            if (input.origin == ir::Origin::geometry)
+                return phase.field(static_cast<Field>(input.which), input_name(dialect_, input));
+            if (input.origin == ir::Origin::surface)
+                return phase.surface(static_cast<ir::SurfaceField>(input.which));
+            std::string name;
+            for (const Member& member : inputs_.parameters)
+                if (member.input.which == input.which) name = member.name;
+            return phase.text.input("Parameters." + name, input.type);
+        });
+    }
+
+    Statement add_to(const ir::ModelOutput& output, std::string_view light,
+                     const std::string& value) const
+    {
+        return {fmt::format("Lighting.{} += {} * {};", engine_name(output), light, value),
+                module_[output.function].span};
+    }
+
+    /// Every stable field of the light as a point, noted in `points`, and the outputs that see the
+    /// light so.
+    std::vector<Record> before(Scope& scope, Phase::Points& points)
+    {
+        Phase phase{"Roughness", nullptr};
         std::vector<ir::ExprId> roots;
+        for (const Field field : inputs_.geometry)
+            if (is_stable(field)) {
+                roots.push_back(phase.field(field, input_name(dialect_, field_input(field))));
+                points.emplace_back(field, "");
+            }
+        const std::size_t stable = roots.size();
         std::vector<const ir::ModelOutput*> outputs;
-        for (const ir::ModelOutput& output : model_.outputs) {
-            if (is_before(output) != (when == Phase::When::before)) continue;
-            outputs.push_back(&output);
-            roots.push_back(phase.text.call(module_, output.function, [&](const ir::Input& input) {
-                if (input.origin == ir::Origin::geometry) {
-                    const ir::ExprId value = phase.field(static_cast<Field>(input.which));
-                    phase.text.graph.set_name(value, input_name(dialect_, input));
-                    return value;
-                }
-                if (input.origin == ir::Origin::surface)
-                    return phase.surface(static_cast<ir::SurfaceField>(input.which));
-                std::string name;
-                for (const Member& member : inputs_.parameters)
-                    if (member.input.which == input.which) name = member.name;
-                return phase.text.input("Parameters." + name, input.type);
-            }));
-        }
-        Scope scope = scope_of_body();
+        for (const ir::ModelOutput& output : model_.outputs)
+            if (is_before(output)) {
+                outputs.push_back(&output);
+                roots.push_back(call(phase, output));
+            }
         scope.inputs = phase.text.texts;
         Body body = listing_.write(scope, phase.text.graph, roots);
-        taken_ = scope.namer;
-        for (std::size_t i = 0; i < roots.size(); ++i)
-            body.locals.push_back({fmt::format("Lighting.{} += {} * {};", engine_name(*outputs[i]),
-                                               light, body.results[i].text),
-                                   module_[outputs[i]->function].span});
+        for (std::size_t i = 0; i < stable; ++i) points[i].second = body.results[i].text;
+        for (std::size_t i = stable; i < roots.size(); ++i)
+            body.locals.push_back(add_to(*outputs[i - stable], "LightColor", body.results[i].text));
         return listing_.statements(body.locals);
     }
 
-    /// What the template's own lines name in the BxDF, and the other phase's locals.
-    Scope scope_of_body()
+    /// The outputs that follow the mirror direction of a light with a size.
+    std::vector<Record> after(Scope& scope, const Phase::Points& points, bool widened)
+    {
+        Phase phase{widened ? "SpecularRoughness" : "Roughness", &points};
+        std::vector<ir::ExprId> roots;
+        std::vector<const ir::ModelOutput*> outputs;
+        for (const ir::ModelOutput& output : model_.outputs)
+            if (!is_before(output)) {
+                outputs.push_back(&output);
+                roots.push_back(call(phase, output));
+            }
+        scope.inputs = phase.text.texts;
+        Body body = listing_.write(scope, phase.text.graph, roots);
+        for (std::size_t i = 0; i < roots.size(); ++i)
+            body.locals.push_back(add_to(
+                *outputs[i], widened ? "LightColor * Energy" : "LightColor", body.results[i].text));
+        return listing_.statements(body.locals);
+    }
+
+    static ir::Input field_input(Field field)
+    {
+        ir::Input input;
+        input.origin = ir::Origin::geometry;
+        input.which = static_cast<std::uint32_t>(field);
+        return input;
+    }
+
+    /// A scope that knows what the template's own lines name.
+    Scope scope_of_body() const
     {
         Scope scope = listing_.scope();
-        if (taken_) {
-            scope.namer = *taken_;
-            return scope;
-        }
         for (const std::string_view name :
              {"GBuffer", "N", "V", "L", "X", "Y", "Falloff", "NoL", "AreaLight", "Shadow",
               "Parameters", "Roughness", "Context", "NoV", "LightColor", "Lighting",
@@ -273,7 +325,6 @@ private:
     ModelInputs inputs_;
     std::string snake_stem_;
     std::string stem_;
-    std::optional<Namer> taken_;
 };
 
 }  // namespace

@@ -5,26 +5,33 @@ namespace {
 
 constexpr std::size_t page = 100;
 
-/// Where to break, or npos: the index of the space that the break replaces.
-std::size_t break_before(std::string_view line, std::size_t room)
+bool is_operator(std::string_view line, std::size_t at)
+{
+    return at + 2 < line.size() &&
+           std::string_view{"+-*/?:&|<>="}.find(line[at]) != std::string_view::npos &&
+           (line[at + 1] == ' ' || line[at + 2] == ' ');
+}
+
+/// Where to break, or npos: the index of the space that the break replaces. The fewest open
+/// parentheses win, then the last place; a place in the first half only where there is no other.
+/// The first piece of a line is not broken before its first parenthesis or `=`.
+std::size_t break_before(std::string_view line, std::size_t room, bool first)
 {
     std::size_t best = std::string_view::npos;
     int best_depth = 0;
     int depth = 0;
-    bool inside = false;  // past the first parenthesis or `=`: not between a type and its name
+    bool inside = !first;
     for (std::size_t i = 0; i < line.size() && i <= room; ++i) {
         const char c = line[i];
         if (c == '(') ++depth;
         if (c == ')') --depth;
-        if (c == '(' || c == '=') inside = true;
-        if (c != ' ' || i == 0 || !inside) continue;
-        const char before = line[i - 1];
-        const char after = i + 1 < line.size() ? line[i + 1] : ' ';
-        const bool operation =
-            std::string_view{"+-*/?:&|<>"}.find(after) != std::string_view::npos &&
-            i + 2 < line.size() && (line[i + 2] == ' ' || line[i + 2] == after);
-        if (before != ',' && !operation) continue;
-        if (best == std::string_view::npos || depth <= best_depth) {
+        if (c != ' ' || i == 0) {
+            inside = inside || c == '(' || c == '=';
+            continue;
+        }
+        if (!inside || (line[i - 1] != ',' && !is_operator(line, i + 1))) continue;
+        const bool early = best != std::string_view::npos && best < room / 2;
+        if (best == std::string_view::npos || depth <= best_depth || early) {
             best = i;
             best_depth = depth;
         }
@@ -43,7 +50,7 @@ std::string wrap(std::string_view line, std::size_t column, std::string_view ind
 
     std::size_t start = column;
     while (start + line.size() > page) {
-        const std::size_t at = break_before(line, page - start);
+        const std::size_t at = break_before(line, page - start, start == column);
         if (at == std::string_view::npos) break;
         text += line.substr(0, at);
         text += '\n';
@@ -60,7 +67,14 @@ std::vector<std::string> fill(std::string_view prose, std::size_t width)
     std::vector<std::string> lines;
     std::string line;
     while (!prose.empty()) {
-        const auto end = prose.find_first_of(" \n");
+        auto end = prose.find_first_of(" \n");
+        // A range stays whole: `[0, 1]`.
+        if (prose.substr(0, end).find('[') != std::string_view::npos) {
+            const auto close = prose.find_first_of("])\n");
+            if (close != std::string_view::npos && (end == std::string_view::npos || close > end) &&
+                close - prose.find('[') < 24)
+                end = prose.find_first_of(" \n", close);
+        }
         const std::string_view word = prose.substr(0, end);
         prose.remove_prefix(end == std::string_view::npos ? prose.size() : end + 1);
         if (word.empty()) continue;

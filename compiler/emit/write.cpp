@@ -41,8 +41,7 @@ public:
         for (const ExprId id : graph_.ids()) {
             if (uses_[id] == 0) continue;
             texts_[id] = expression(id);
-            const bool root = std::ranges::find(roots, id) != roots.end();
-            const bool named = !graph_.name_of(id).empty() && !root;
+            const bool named = !graph_.name_of(id).empty();
             if (!is_trivial(id) && (uses_[id] > 1 || named)) make_local(id);
         }
         for (const ExprId root : roots) body_.results.push_back(texts_[root]);
@@ -87,7 +86,7 @@ private:
         if (const std::string& given = graph_.name_of(id); !given.empty())
             return dialect_.styled(given);
         std::string name = derived_name(id);
-        if (!name.empty() && !scope_.namer.is_taken(name)) return name;
+        if (!name.empty()) return name;
         do name = dialect_.styled(fmt::format("t{}", next_++));
         while (scope_.namer.is_taken(name));
         return name;
@@ -105,13 +104,24 @@ private:
                 const std::string& x = texts_[operands[1]].text;
                 return dialect_.names == Case::pascal ? "OneMinus" + x : "one_minus_" + x;
             }
-            return {};
+            return graph_[id].type == Type::vec3 ? pair_name(id, "minus") : std::string{};
+        case Op::dot: return pair_name(id, "dot");
+        case Op::cross: return pair_name(id, "cross");
         case Op::guarded_normalize:
         case Op::normalize:
             if (graph_[operands[0]].op == Op::add) return dialect_.styled("h");
             return {};
         default: return {};
         }
+    }
+
+    /// n_cross_h, NCrossH for two names.
+    std::string pair_name(ExprId id, std::string_view word) const
+    {
+        const auto operands = graph_.operands(id);
+        if (!is_name(operands[0]) || !is_name(operands[1]) || operands[0] == operands[1]) return {};
+        return dialect_.styled(
+            fmt::format("{}_{}_{}", texts_[operands[0]].text, word, texts_[operands[1]].text));
     }
 
     /// D for D_GGX, diffuse for Diffuse_Lambert, c1_value for c1.
@@ -218,7 +228,7 @@ private:
             const Text& vector = texts_[operands[0]];
             const bool bare = vector.precedence == Precedence::primary;
             const std::string_view letters = is_color(operands[0]) ? "rgba" : "xyzw";
-            return {fmt::format("{}{}{}.{}", bare ? "" : "(", vector.text, bare ? "" : ")",
+            return {fmt::format("{}.{}", bare ? vector.text : parenthesized(vector.text),
                                 letters[expr.aux])};
         }
         case Op::construct: {
@@ -255,12 +265,17 @@ private:
     /// An operand's text, in parentheses where it would bind otherwise. Equal precedence may stay
     /// bare on the left of an infix operator, as in `a - b - c`; not on its right, not in a
     /// ternary, and not below a unary minus, where `--x` would be a decrement.
-    static std::string nested(const Text& operand, const Spelling& parent, bool left)
+    std::string nested(const Text& operand, const Spelling& parent, bool left) const
     {
         const bool bare = operand.precedence > parent.precedence ||
                           (operand.precedence == parent.precedence && left) ||
                           operand.precedence == Precedence::primary;
-        return bare ? operand.text : "(" + operand.text + ")";
+        return bare ? operand.text : parenthesized(operand.text);
+    }
+
+    std::string parenthesized(const std::string& text) const
+    {
+        return fmt::format("{}{}{}", dialect_.call_open, text, dialect_.call_close);
     }
 
     Text call(std::string_view function, const std::vector<std::string>& arguments) const
@@ -301,8 +316,8 @@ private:
     {
         if (!dialect_.spread_by_cast) return call(dialect_.type(type), {scalar.text});
         const bool bare = scalar.precedence == Precedence::primary;
-        return {fmt::format("({}){}{}{}", dialect_.type(type), bare ? "" : "(", scalar.text,
-                            bare ? "" : ")"),
+        return {fmt::format("({}){}", dialect_.type(type),
+                            bare ? scalar.text : parenthesized(scalar.text)),
                 Precedence::unary};
     }
 

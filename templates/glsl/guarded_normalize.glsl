@@ -4,8 +4,8 @@
 // v / |v|, and 0 where |v| is so small that its square is no normal number.
 ${vector.type} ${name}(${vector.type} v)
 {
-    ${scalar} square = dot(v, v);
-    return square >= ${least} ? v * inversesqrt(square) : ${vector.type}(${zero});
+    ${scalar} length_squared = dot(v, v);
+    return length_squared >= ${least} ? v * inversesqrt(length_squared) : ${vector.type}(${zero});
 }
 #endif
 //% end
