@@ -135,7 +135,7 @@ Agreement compare(const Reference& reference, std::span<const float> results)
     if (!all_ulp.empty()) {
         const auto rank = all_ulp.begin() + static_cast<std::ptrdiff_t>(all_ulp.size() * 99 / 100);
         std::ranges::nth_element(all_ulp, rank);
-        out.ulp_of_99_in_100 = *rank;
+        out.ulp_of_99_percent = *rank;
     }
     return out;
 }

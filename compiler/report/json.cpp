@@ -39,6 +39,7 @@ ordered_json to_json(const analyze::Agreement& agreement)
                      {"outside", agreement.outside},
                      {"not_a_number", agreement.not_a_number},
                      {"infinite", agreement.infinite},
+                     {"ulp_of_99_percent", number(agreement.ulp_of_99_percent)},
                      {"worst_ulp", to_json(agreement.ulp)},
                      {"worst_relative", to_json(agreement.relative)},
                      {"worst_absolute", to_json(agreement.absolute)}};

@@ -111,9 +111,10 @@ JudgeMatrix judge_matrix(Verifications verifications)
 Table verification_table(Verifications verifications)
 {
     Table table;
-    table.columns = {{"term", false},    {"target", false},  {"precision", false}, {"", false},
-                     {"points", true},   {"outside", true},  {"undefined", true},  {"ulp", true},
-                     {"relative", true}, {"worst at", false}};
+    table.columns = {{"term", false},     {"target", false},  {"precision", false},
+                     {"", false},         {"points", true},   {"outside", true},
+                     {"undefined", true}, {"ulp 99 %", true}, {"worst ulp", true},
+                     {"relative", true},  {"worst at", false}};
     for (const Verification& verification : verifications)
         for (const Row& row : verification.rows) {
             std::vector<Cell> cells{{row.term, Style::plain},
@@ -126,6 +127,9 @@ Table verification_table(Verifications verifications)
                 cells.push_back({both(row.direct.outside, row.optimized.outside),
                                  row.ok() ? Style::plain : Style::bad});
                 cells.push_back({grouped(row.direct.undefined), Style::plain});
+                cells.push_back({short_number(std::max(row.direct.ulp_of_99_percent,
+                                                       row.optimized.ulp_of_99_percent)),
+                                 Style::plain});
                 cells.push_back({short_number(ulp.size), Style::plain});
                 cells.push_back({short_number(worst_relative(row).size), Style::plain});
                 cells.push_back({ulp.at ? ulp.at->inputs : "", Style::faint});
