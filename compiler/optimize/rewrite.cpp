@@ -116,6 +116,7 @@ ExprId Rebuild::complement_input(std::uint32_t index)
         Input added = old().inputs[index];
         added.range = {1 - added.range.high, 1 - added.range.low};
         added.name = "one_minus_" + added.name;
+        added.complement = true;
         while (std::ranges::any_of(slots_,
                                    [&](const Slot& slot) { return slot.input.name == added.name; }))
             added.name += "_";

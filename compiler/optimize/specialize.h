@@ -1,0 +1,31 @@
+// A module for known parameters: what a scene does not call for is not multiplied by zero, it is
+// not in the code.
+#pragma once
+
+#include "ir/module.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lobe::optimize {
+
+/// The values of some parameters, by name, one per component.
+using Settings = std::map<std::string, std::vector<double>>;
+
+/// The module with these parameters fixed, simplified. Fixed parameters are no inputs any more;
+/// constants reach the bodies of the functions they are passed to: where all callers pass the
+/// same, the argument vanishes, elsewhere the call is inlined. Comes before `optimize`.
+///
+/// A value stands for the shortest decimal that reads back as it: 0.1 is one tenth, as it would
+/// be had the author written it. Names that are no parameters, and values of another size than
+/// the parameter's, are ignored by the module: the caller checks them.
+///
+/// `Module::parameters` and `Module::effects` stay as they are. The condition of an effect that
+/// the settings decide is a constant; `truth` (truth.h) reads it.
+ir::Module specialize(const ir::Module& module, const Settings& settings);
+
+/// Every parameter at its default.
+Settings defaults(const ir::Module& module);
+
+}  // namespace lobe::optimize
