@@ -87,6 +87,8 @@ private:
                             bool undefined) const;
     /// Relative size of one rounding in either direction.
     double epsilon() const { return std::ldexp(1.0, 1 - rules_.digits); }
+    /// A component is no longer than its vector, but for three roundings or two functions.
+    double longest() const { return 1 + 8 * epsilon(); }
 
     const Rules& rules_;
 };
@@ -336,10 +338,8 @@ Acceptance Device::normalized(const Acceptance& x, const Acceptance& squares) co
     const Acceptance product = multiply(x, inverse_square_root(squares));
     const Acceptance quotient = divide(x, square_root(squares));
     Acceptance result = hull(product, quotient);
-    // A component is no longer than its vector, and three roundings or two functions more.
-    const double most = 1 + 8 * epsilon();
-    result.low = std::clamp(result.low, -most, most);
-    result.high = std::clamp(result.high, -most, most);
+    result.low = std::clamp(result.low, -longest(), longest());
+    result.high = std::clamp(result.high, -longest(), longest());
     return result;
 }
 
@@ -349,10 +349,8 @@ Acceptance Device::guarded_normalized(const Acceptance& x, const Acceptance& squ
     const bool undefined = x.undefined || squares.undefined;
     if (squares.high <= 0) return {0, 0, undefined};
     if (squares.low > 0) return normalized(x, squares);
-    const double least = rules_.least_normal;
-    const Acceptance bare =
-        normalized(x, {least, std::max(squares.high, least), squares.undefined});
-    return hull(bare, zero);
+    // A denormal sum may pass the guard and then be read as 0.
+    return {x.low < 0 ? -longest() : 0, x.high > 0 ? longest() : 0, true};
 }
 
 /// mix: x * (1 - t) + y * t, or x + (y - x) * t.

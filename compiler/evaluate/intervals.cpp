@@ -32,11 +32,13 @@ double upper(double value, int steps)
 
 bool is_whole(double x) { return x == std::floor(x); }
 
-/// The bounds of an increasing function.
-template <class Function>
-Interval increasing(Interval x, Function function, int steps)
+/// The bounds of an increasing function that is 0 at 0 alone, and keeps the sign.
+Interval increasing(Interval x, double (*function)(double), int steps)
 {
-    return {lower(function(x.low), steps), upper(function(x.high), steps)};
+    const double low = function(x.low);
+    const double high = function(x.high);
+    return {x.low >= 0 ? std::max(lower(low, steps), 0.0) : lower(low, steps),
+            x.high <= 0 ? std::min(upper(high, steps), 0.0) : upper(high, steps)};
 }
 
 double exp2_down(double x)
@@ -60,11 +62,11 @@ bool is_binade(double x)
     return (std::bit_cast<std::uint64_t>(x) & 0xfffffffffffffU) == 0 && x >= 0x1p-1022;
 }
 
-/// Twice the error of a power, relative: 2 units in the last place, and 1/16 for every unit of
-/// the exponent of 2.
+/// Twice the error of a power, relative: 2 units in the last place, and (ln 2)/4 for every unit
+/// of the exponent of 2.
 double power_slack(double x, double y)
 {
-    return (4 + std::min(std::abs(y * log2_one(x)), 1100.0) / 8) * 0x1p-52;
+    return (4 + std::min(std::abs(y * log2_one(x)), 1100.0) / 2) * 0x1p-52;
 }
 
 double power_down(double x, double y)
@@ -202,6 +204,7 @@ Interval maximum(Interval a, Interval b)
 
 Interval power(Interval x, Interval y)
 {
+    if (y == Interval{0, 0}) return one;
     // Monotone in each operand for a positive base, so its extremes are at the corners.
     const double least = std::max(x.low, 0.0);
     const double most = std::max(x.high, 0.0);
@@ -261,6 +264,15 @@ Interval smoothstep(Interval edge0, Interval edge1, Interval x)
     return result;
 }
 
+/// x / sqrt(squares), where x^2 is one of the squares: in [-1, 1], with the sign of x.
+Interval normalized(Interval x, Interval squares)
+{
+    if (squares.high <= 0) return {0, 0};
+    const Interval ratio = divide(x, square_root(squares));
+    return {std::max(ratio.low, x.low >= 0 ? 0.0 : -1.0),
+            std::min(ratio.high, x.high <= 0 ? 0.0 : 1.0)};
+}
+
 Interval exp2(Interval x) { return {exp2_down(x.low), exp2_up(x.high)}; }
 
 Interval log2(Interval x)
@@ -291,7 +303,8 @@ Interval log(Interval x)
 
 Interval sine(Interval x)
 {
-    if (x == Interval{0, 0}) return x;
+    // Between the peaks on either side of 0 it is increasing.
+    if (x.low >= -1.5 && x.high <= 1.5) return increasing(x, sine_one, arc_slack);
     return wave(x, sine_one, pi / 2);
 }
 
@@ -303,7 +316,6 @@ Interval cosine(Interval x)
 
 Interval tangent(Interval x)
 {
-    if (x == Interval{0, 0}) return x;
     if (!is_reducible(x) || may_reach(x, pi / 2, pi)) return everything;
     return increasing(x, tangent_one, arc_slack);
 }
@@ -321,7 +333,6 @@ Interval arc_cosine(Interval x)
 
 Interval arc_tangent(Interval x)
 {
-    if (x == Interval{0, 0}) return x;
     return common(increasing(x, arc_tangent_one, arc_slack), {-next_up(pi / 2), next_up(pi / 2)});
 }
 
@@ -367,11 +378,9 @@ Interval apply(TapeOp op, Interval a, Interval b, Interval c, Interval d)
     case TapeOp::minimum: return minimum(a, b);
     case TapeOp::maximum: return maximum(a, b);
     case TapeOp::step: return less_equal(a, b);
-    case TapeOp::normalized: return common(divide(a, square_root(b)), {-1, 1});
-    case TapeOp::guarded_normalized: {
-        const Interval ratio = common(divide(a, square_root(b)), {-1, 1});
-        return b.low > 0 ? ratio : hull(ratio, {0, 0});
-    }
+    case TapeOp::normalized: return normalized(a, b);
+    case TapeOp::guarded_normalized:
+        return b.low > 0 ? normalized(a, b) : hull(normalized(a, b), {0, 0});
     case TapeOp::lerp: return lerp(a, b, c);
     case TapeOp::clamp: return minimum(maximum(a, b), c);
     case TapeOp::smoothstep:

@@ -30,6 +30,7 @@ Interval maximum(Interval a, Interval b);
 Interval power(Interval x, Interval y);
 Interval lerp(Interval a, Interval b, Interval t);
 Interval smoothstep(Interval edge0, Interval edge1, Interval x);
+Interval normalized(Interval x, Interval squares);
 Interval exp2(Interval x);
 Interval log2(Interval x);
 Interval exp(Interval x);

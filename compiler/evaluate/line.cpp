@@ -31,6 +31,8 @@ using Components = std::vector<Value>;
 
 /// Integer exponents up to this are products; optimize/legalize.cpp writes the same products.
 constexpr int largest_product = 64;
+/// Up to this they are products where the base is negative, and powers elsewhere.
+constexpr int largest_product_of_negative = 4096;
 
 /// The whole number that an exponent is written as, if it is one and not too large.
 std::optional<int> integer_exponent(const Graph& graph, ExprId id)
@@ -42,7 +44,8 @@ std::optional<int> integer_exponent(const Graph& graph, ExprId id)
     }
     if (graph[id].op != Op::literal || graph.literal_of(id).text == "pi") return std::nullopt;
     const double value = sign * graph.literal_of(id).value;
-    if (std::abs(value) > largest_product || value != std::floor(value)) return std::nullopt;
+    if (std::abs(value) > largest_product_of_negative || value != std::floor(value))
+        return std::nullopt;
     // 2.00000000000000000001 is another real number, though the nearest double is 2.
     if (!graph.is_literal(id, std::abs(value)) && !graph.is_literal(id, value)) return std::nullopt;
     return static_cast<int>(value);
@@ -167,7 +170,14 @@ Components Scalarizer::each(const Frame& frame, ExprId id)
             return all.size() == 1 ? all[0] : all[k];
         };
         if (exponent) {
-            result.push_back(integer_power(operand(0), *exponent));
+            const Value chain = integer_power(operand(0), *exponent);
+            if (std::abs(*exponent) <= largest_product) {
+                result.push_back(chain);
+                continue;
+            }
+            const TapeOp power = op == Op::power ? TapeOp::power : TapeOp::guarded_power;
+            result.push_back(emit(TapeOp::select, emit(TapeOp::less, operand(0), number(0)), chain,
+                                  emit(power, operand(0), operand(1))));
             continue;
         }
         switch (op) {

@@ -38,14 +38,19 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 ir::Input number_input(std::string name, double low, double high)
 {
-    return {std::move(name),       ir::Type::scalar, ir::Quantity::number, {low, high},
-            ir::Origin::argument, 0,                {}};
+    return {std::move(name),
+            ir::Type::scalar,
+            ir::Quantity::number,
+            {low, high},
+            ir::Origin::argument,
+            0,
+            {}};
 }
 
 ir::Input color_input(std::string name)
 {
-    return {std::move(name),      ir::Type::vec3, ir::Quantity::color, {0, 1},
-            ir::Origin::argument, 0,              {}};
+    return {
+        std::move(name), ir::Type::vec3, ir::Quantity::color, {0, 1}, ir::Origin::argument, 0, {}};
 }
 
 ir::Module module_of(ir::Op op, int arity)
@@ -56,8 +61,7 @@ ir::Module module_of(ir::Op op, int arity)
     std::vector<ir::ExprId> operands;
     for (int i = 0; i < arity; ++i) {
         function.inputs.push_back(number_input("x" + std::to_string(i), -unbounded, unbounded));
-        operands.push_back(
-            function.graph.input(static_cast<std::uint32_t>(i), ir::Type::scalar));
+        operands.push_back(function.graph.input(static_cast<std::uint32_t>(i), ir::Type::scalar));
     }
     function.result = function.graph.apply(op, operands);
     module.functions.push_back(std::move(function));
@@ -66,30 +70,26 @@ ir::Module module_of(ir::Op op, int arity)
 
 Table<float> evaluate_float(const Tape& tape, const Table<float>& points)
 {
-    return transposed(tape, points, 0.0F, [&](auto in, auto out, auto count) {
-        run(tape, in, out, count);
-    });
+    return transposed(tape, points, 0.0F,
+                      [&](auto in, auto out, auto count) { run(tape, in, out, count); });
 }
 
 Table<double> evaluate_double(const Tape& tape, const Table<double>& points)
 {
-    return transposed(tape, points, 0.0, [&](auto in, auto out, auto count) {
-        run(tape, in, out, count);
-    });
+    return transposed(tape, points, 0.0,
+                      [&](auto in, auto out, auto count) { run(tape, in, out, count); });
 }
 
 Table<float> evaluate_half(const Tape& tape, HalfMode mode, const Table<float>& points)
 {
-    return transposed(tape, points, 0.0F, [&](auto in, auto out, auto count) {
-        run_half(tape, mode, in, out, count);
-    });
+    return transposed(tape, points, 0.0F,
+                      [&](auto in, auto out, auto count) { run_half(tape, mode, in, out, count); });
 }
 
 Table<Interval> evaluate_interval(const Tape& tape, const Table<Interval>& points)
 {
-    return transposed(tape, points, Interval{}, [&](auto in, auto out, auto count) {
-        run(tape, in, out, count);
-    });
+    return transposed(tape, points, Interval{},
+                      [&](auto in, auto out, auto count) { run(tape, in, out, count); });
 }
 
 Table<Acceptance> evaluate_acceptance(const Tape& tape, Precision precision,
@@ -113,9 +113,8 @@ Table<Real> evaluate_real(const Tape& tape, int bits, const Table<double>& point
         auto& row = exact.emplace_back();
         for (const double value : point) row.push_back(Real{value, 53});
     }
-    return transposed(tape, exact, Real{bits}, [&](auto in, auto out, auto count) {
-        run_real(tape, bits, in, out, count);
-    });
+    return transposed(tape, exact, Real{bits},
+                      [&](auto in, auto out, auto count) { run_real(tape, bits, in, out, count); });
 }
 
 double apply_double(ir::Op op, std::initializer_list<double> operands)

@@ -38,7 +38,6 @@ float apply_float(ir::Op op, std::initializer_list<float> operands);
 float apply_half(ir::Op op, evaluate::HalfMode mode, std::initializer_list<float> operands);
 evaluate::Interval apply_interval(ir::Op op, std::initializer_list<evaluate::Interval> operands);
 evaluate::Acceptance apply_acceptance(ir::Op op, std::initializer_list<float> operands,
-                                      evaluate::Precision precision =
-                                          evaluate::Precision::float32);
+                                      evaluate::Precision precision = evaluate::Precision::float32);
 
 }  // namespace lobe::tests
