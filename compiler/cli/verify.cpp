@@ -76,9 +76,8 @@ struct Verify {
                 };
                 verifications.push_back(analyze::verify(modules[i], sources, options));
                 if (!verifications.back().no_device.empty() && !judges_only) break;
-                for (const Diagnostic& complaint :
-                     analyze::complaints(verifications.back(), modules[i]).all())
-                    complaints.report(complaint);
+                const Diagnostics found = analyze::complaints(verifications.back(), modules[i]);
+                for (const Diagnostic& complaint : found.all()) complaints.report(complaint);
             }
         }
         if (!judges_only && !verifications.back().no_device.empty())
