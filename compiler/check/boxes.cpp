@@ -139,14 +139,51 @@ bool BoxProof::prove()
     return true;
 }
 
-Interval BoxProof::range(std::size_t root)
+Interval BoxProof::bounds(std::size_t root, const Box& box)
 {
-    std::vector<Interval> ranges = analysis_.ranges(whole_)[root];
+    std::vector<Interval> ranges = analysis_.ranges(box)[root];
     for (std::size_t k = 0; k < ranges.size(); ++k) {
-        ranges[k].low = std::max(ranges[k].low, bound(root, k, whole_, true));
-        ranges[k].high = std::min(ranges[k].high, bound(root, k, whole_, false));
+        ranges[k].low = std::max(ranges[k].low, bound(root, k, box, true));
+        ranges[k].high = std::min(ranges[k].high, bound(root, k, box, false));
     }
     return hull(ranges);
+}
+
+Interval BoxProof::range(std::size_t root)
+{
+    // The hull of the halves is never wider than the whole. Each turn halves the box that holds
+    // the hull open, first at one end, then at the other.
+    struct Part {
+        Box box;
+        Interval range;
+    };
+    std::vector<Part> parts{{whole_, bounds(root, whole_)}};
+    const std::size_t cost = flat_.function.graph.size() * (1 + varied_.size());
+    const std::size_t turns = std::clamp<std::size_t>(most_work / 64 / (cost + 1), 1, 64);
+    for (std::size_t turn = 0; turn < turns; ++turn) {
+        const auto extreme = turn % 2 == 0
+                                 ? std::ranges::max_element(
+                                       parts, {}, [](const Part& part) { return part.range.high; })
+                                 : std::ranges::min_element(
+                                       parts, {}, [](const Part& part) { return part.range.low; });
+        const auto split = widest(extreme->box);
+        if (!split) break;
+        const double middle = cut(extreme->box[*split]);
+        Part upper{extreme->box, {}};
+        Part lower = upper;
+        upper.box[*split].low = middle;
+        lower.box[*split].high = middle;
+        upper.range = bounds(root, upper.box);
+        lower.range = bounds(root, lower.box);
+        *extreme = std::move(upper);
+        parts.push_back(std::move(lower));
+    }
+    Interval result = parts.front().range;
+    for (const Part& part : parts) {
+        result.low = std::min(result.low, part.range.low);
+        result.high = std::max(result.high, part.range.high);
+    }
+    return result;
 }
 
 }  // namespace lobe::check

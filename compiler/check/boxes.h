@@ -20,12 +20,13 @@ public:
     /// The box is halved at most some thousand times; false means proved or not known.
     bool prove();
 
-    /// The range of a root over the declared ranges, as tight as slopes make it.
+    /// The range of a root over the declared ranges, as tight as slopes and some halving make it.
     Interval range(std::size_t root);
 
 private:
     bool holds(const Box& box);
     bool holds_by_slopes(const Box& box);
+    Interval bounds(std::size_t root, const Box& box);
     /// One bound of one component, from the face of the box where the slopes say it is attained.
     double bound(std::size_t root, std::size_t component, const Box& box, bool low);
     Analysis* slopes(std::size_t root);

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 
 namespace lobe::check {
@@ -36,16 +37,17 @@ public:
     {
         for (const std::size_t index : lowering_order(program_, diagnostics_)) {
             if (enough()) return;
-            // An imported module's warnings are its own affair.
+            // An imported module's warnings are its own affair, and those of half a text nobody's.
             Callable& callable = program_.callables[index];
             Diagnostics found;
             Lowered lowered = lower_callable(program_, index, sources_, found);
             callable.function = settle(lowered, found);
-            const bool own = callable.file + 1 == program_.files.size();
+            const bool own = callable.file + 1 == program_.files.size() &&
+                             !program_.files[callable.file]->broken;
             for (const Diagnostic& diagnostic : found.all())
                 if (own || severity(diagnostic.code) == Severity::error)
                     diagnostics_.report(diagnostic);
-            if (own) warn_undocumented(callable, lowered.draft.function);
+            if (own) warn_undocumented(callable);
         }
     }
 
@@ -75,6 +77,8 @@ private:
     /// Proves what has to be proved of a body and enters its function. Nothing if either failed.
     std::optional<ir::FunctionId> settle(Lowered& lowered, Diagnostics& diagnostics)
     {
+        // What could not be read may be what a proof would need.
+        if (program_.files[lowered.file]->broken) return std::nullopt;
         const ir::Function& draft = lowered.draft.function;
         const std::uint64_t size = flat_size(program_.sizes, draft);
         operations_ += size;
@@ -122,10 +126,11 @@ private:
         declarations_.models.push_back(std::move(result));
     }
 
-    void warn_undocumented(const Callable& callable, const ir::Function& function)
+    void warn_undocumented(const Callable& callable)
     {
-        if (callable.form != nullptr || !function.doc.empty() || !function.citations.empty() ||
-            callable.name.empty())
+        const auto& comments = callable.item->comments;
+        if (callable.form != nullptr || callable.name.empty() ||
+            std::ranges::any_of(comments, &syntax::Comment::doc))
             return;
         diagnostics_.report(
             {.code = Code::undocumented_term,

@@ -61,6 +61,13 @@ void report_unknown_type(const syntax::Identifier& name, Diagnostics& diagnostic
     diagnostics.report(std::move(diagnostic));
 }
 
+/// A number as such, so that writing its value is writing it again.
+bool is_written(const syntax::Tree& tree, syntax::ExpressionId id)
+{
+    if (const auto* unary = std::get_if<syntax::Unary>(&tree[id].node)) id = unary->operand;
+    return std::holds_alternative<syntax::Number>(tree[id].node);
+}
+
 bool resolve_range(const syntax::Tree& tree, const syntax::RangeClause& clause, ir::Range& range,
                    Diagnostics& diagnostics)
 {
@@ -79,9 +86,11 @@ bool resolve_range(const syntax::Tree& tree, const syntax::RangeClause& clause, 
                     *low == *high ? "" : fmt::format("{} is above {}", low_text, high_text)}};
     if (*low == *high)
         diagnostic.helps = {"a value that never changes is a constant: write it where it is used"};
-    else
-        diagnostic.fix = Fix{clause.span, fmt::format("in [{}, {}]", high_text, low_text),
+    else if (is_written(tree, clause.low) && is_written(tree, clause.high))
+        diagnostic.fix = Fix{clause.span, fmt::format("[{}, {}]", high_text, low_text),
                              "put the smaller end first"};
+    else
+        diagnostic.helps = {"put the smaller end first"};
     diagnostics.report(std::move(diagnostic));
     return false;
 }
@@ -151,7 +160,7 @@ Signature resolve_signature(const syntax::Tree& tree,
                     signature.broken = true;
                 }
         signature.arguments.push_back(
-            {clause.name.text, clause.name.span, type.value_or(DeclaredType{})});
+            {clause.name.text, clause.name.span, type.value_or(DeclaredType{}), !type});
     }
     if (result) {
         signature.result = resolve_type(tree, *result, Place::result, diagnostics);
@@ -244,6 +253,8 @@ ir::Parameter resolve_parameter(const File& file, const syntax::Item& item,
                                   .fix = rename_fix(param.tier->text, param.tier->span, known)};
             if (known.empty())
                 diagnostic.helps = {fmt::format("declare it first: `tier {}`", param.tier->text)};
+            else if (!diagnostic.fix)
+                diagnostic.notes = {fmt::format("the tiers are {}", fmt::join(known, ", "))};
             diagnostics.report(std::move(diagnostic));
         }
     }

@@ -67,8 +67,10 @@ void Lowering::add_arguments(const Signature& signature)
 {
     std::size_t position = 0;
     for (const Argument& argument : signature.arguments) {
-        Local local{{true, argument.type.type, {}}, argument.span, false, false};
-        if (argument.type.type.structure == Structure::none)
+        Local local{{!argument.broken, argument.type.type, {}}, argument.span, false, false};
+        if (argument.broken)
+            local.value = {};
+        else if (argument.type.type.structure == Structure::none)
             local.value.expr = draft_.add_argument(argument, position);
         else
             draft_.set_structure_position(argument.type.type.structure, position);
@@ -290,21 +292,23 @@ Value Lowering::unknown_member(const syntax::Member& member, const ValueType& ty
 {
     const std::string& name = member.member.text;
     if (name.empty()) return {};  // a syntax error was reported
-    std::string list;
-    for (const std::string& field : known) list += (list.empty() ? "" : ", ") + field;
     const std::string_view field = shader_field(name);
     const bool translated = field != name && type.structure == Structure::geometry;
     Diagnostic diagnostic{
         .code = Code::unknown_member,
-        .message = fmt::format("{} has no member `{}`{}", describe(type), name,
-                               translated ? fmt::format("; here it is `{}`", field)
-                                          : did_you_mean(name, known)),
-        .primary = {member.member.span, ""},
-        .notes = {known.empty() ? "a number has no members"
-                                : fmt::format("the members are {}", list)},
-        .fix = translated
-                   ? Fix{member.member.span, std::string{field}, fmt::format("write `{}`", field)}
-                   : rename_fix(name, member.member.span, known)};
+        .message = known.empty() ? fmt::format("{} has no members", describe(type))
+                                 : fmt::format("{} has no member `{}`", describe(type), name),
+        .primary = {member.member.span, ""}};
+    if (translated) {
+        diagnostic.message += fmt::format("; here it is `{}`", field);
+        diagnostic.fix =
+            Fix{member.member.span, std::string{field}, fmt::format("write `{}`", field)};
+    } else {
+        diagnostic.message += did_you_mean(name, known);
+        diagnostic.fix = rename_fix(name, member.member.span, known);
+    }
+    if (!known.empty())
+        diagnostic.notes = {fmt::format("the members are {}", fmt::join(known, ", "))};
     diagnostics_->report(std::move(diagnostic));
     return {};
 }

@@ -29,6 +29,7 @@ struct Argument {
     std::string name;
     Span span;  ///< of the name
     DeclaredType type;
+    bool broken = false;  ///< its type was reported; whatever uses it stays silent
 };
 
 /// What a caller of a term needs to know. Shared by the term and its forms.

@@ -184,6 +184,34 @@ private:
     std::vector<std::vector<Interval>> known_;  ///< per expression of the draft, where asked for
 };
 
+/// `x / (1 + x) else 0`: the `else` and what follows it can go.
+Diagnostic describe_unused(const NamedLimit& limit, const Sources& sources)
+{
+    Diagnostic diagnostic{.code = Code::unused_limit,
+                          .message = "this limit is never used",
+                          .primary = {limit.limit, ""},
+                          .secondary = {{limit.divisor_span, "this cannot be 0"}},
+                          .helps = {"leave out the `else`"}};
+    const std::string_view before =
+        std::string_view{sources[limit.limit.source].text()}.substr(0, limit.limit.begin);
+    const std::size_t keyword = before.rfind("else");
+    const std::size_t divisor = keyword == std::string_view::npos || keyword == 0
+                                    ? std::string_view::npos
+                                    : before.find_last_not_of(" \t\r\n", keyword - 1);
+    // Only where nothing but space follows the keyword: a parenthesis would be left over.
+    const bool plain =
+        divisor != std::string_view::npos &&
+        before.substr(keyword + 4).find_first_not_of(" \t") == std::string_view::npos;
+    if (plain) {
+        diagnostic.helps.clear();
+        diagnostic.fix =
+            Fix{{limit.limit.source, static_cast<std::uint32_t>(divisor + 1), limit.limit.end},
+                "",
+                "leave out the `else`"};
+    }
+    return diagnostic;
+}
+
 }  // namespace
 
 bool prove(const Program& program, Draft& draft, const Sources& sources, Diagnostics& diagnostics)
@@ -196,12 +224,7 @@ bool prove(const Program& program, Draft& draft, const Sources& sources, Diagnos
         proved = false;
     }
     for (const NamedLimit& limit : draft.limits)
-        if (proving.excludes_zero(limit))
-            diagnostics.report({.code = Code::unused_limit,
-                                .message = "this limit is never used",
-                                .primary = {limit.limit, "the divisor cannot be 0"},
-                                .secondary = {{limit.divisor_span, "the divisor"}},
-                                .helps = {"leave out the `else`"}});
+        if (proving.excludes_zero(limit)) diagnostics.report(describe_unused(limit, sources));
     if (proved && draft.function.result.valid()) draft.function.range = proving.result_range();
     return proved;
 }

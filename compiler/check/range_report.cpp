@@ -126,7 +126,7 @@ private:
         fix(fmt::format("max({}, 0)", subject_), "cut off what is below 0");
         if (!is_plain(subject_)) return;
         diagnostic_.helps.push_back(
-            fmt::format("or `abs({})`, if its sign means nothing here", subject_));
+            fmt::format("write `abs({})` if its sign means nothing here", subject_));
     }
 
     void power_zero()
@@ -181,9 +181,7 @@ private:
         diagnostic_.secondary.push_back({obligation_.declared, "the range is declared here"});
         diagnostic_.helps.push_back(
             "declare the range that it has, or no range, which has it inferred");
-        diagnostic_.helps.push_back(fmt::format(
-            "or keep it inside: `{}`",
-            is_plain(subject_) && subject_.size() < 30 ? kept_inside() : "saturate(...)"));
+        diagnostic_.helps.push_back("or keep it inside: `saturate`, `min`, `max` and `clamp` do");
     }
 
     /// The input that breaks it, or why none is shown.
@@ -209,9 +207,12 @@ private:
         }
         const Witness& witness = *finding_.witness;
         std::string value;
-        if (obligation_.kind != Kind::divisor && obligation_.kind != Kind::power_zero &&
-            witness.values.size() == 1)
-            value = fmt::format(", where it is {}", describe(witness.values[0], true));
+        if (obligation_.kind != Kind::divisor && obligation_.kind != Kind::power_zero) {
+            for (const double component : witness.values)
+                value += (value.empty() ? "" : ", ") + describe(component, true);
+            if (witness.values.size() > 1) value = fmt::format("({})", value);
+            value = fmt::format(", where it is {}", value);
+        }
         if (witness.on_vectors) {
             diagnostic_.notes.push_back(fmt::format(
                 "reached at: {}{}", witness.point.empty() ? "every input" : witness.point, value));
