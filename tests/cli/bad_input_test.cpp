@@ -135,8 +135,10 @@ TEST_CASE("an output folder that cannot be written")
 TEST_CASE("a disk that fills up")
 {
     const Scratch scratch;
-    scratch.write("good.lobe", "module good\n" + term);
-    // 512 bytes per file: less than any generated file.
+    // A limit of 1 KiB per file at most, and a comment that makes every generated file longer.
+    std::string source = "// A long story.\n";
+    while (source.size() < 4096) source += "// It goes on, and every generated file repeats it.\n";
+    scratch.write("good.lobe", source + "module good\n" + term);
     const Outcome outcome = scratch.run("ulimit -f 1; lobec build good.lobe -o out");
     CAPTURE(outcome.err);
     CHECK(outcome.status == 2);
