@@ -20,7 +20,8 @@ std::string function_name(const Dialect& dialect, const ir::Module& module,
                           const ir::Function& function, const std::string& prefix)
 {
     if (dialect.names == Case::snake) return function.name;
-    if (function.kind == ir::Function::Kind::output) return dialect.styled(function.name);
+    if (function.kind == ir::Function::Kind::output)
+        return dialect.styled(model_stem(module, function.name, dialect));
     const auto styled = [&](const std::string& name) {
         const bool capital = std::ranges::any_of(name, [](char c) { return c >= 'A' && c <= 'Z'; });
         return capital || name.size() <= 2 ? name : dialect.styled(name);
@@ -51,6 +52,12 @@ std::string range_text(const ir::Range& range)
     if (std::isinf(range.low) && std::isinf(range.high)) return {};
     return fmt::format("{}{}, {}{}", std::isinf(range.low) ? "(" : "[", end_text(range.low),
                        end_text(range.high), std::isinf(range.high) ? ")" : "]");
+}
+
+std::string model_stem(const ir::Module& module, const std::string& name, const Dialect& dialect)
+{
+    if (dialect.names == Case::snake || name.starts_with(module.name)) return name;
+    return module.name + "_" + name;
 }
 
 std::string shown_path(std::string_view path)

@@ -60,12 +60,6 @@ ir::ExprId TextGraph::input(const std::string& text, ir::Type type)
     return graph.input(index, type);
 }
 
-std::string model_stem(const ir::Module& module, const ir::Model& model, const Dialect& dialect)
-{
-    if (dialect.names == Case::snake || model.name.starts_with(module.name)) return model.name;
-    return module.name + "_" + model.name;
-}
-
 std::vector<Record> member_records(const ir::Module& module, const Dialect& dialect,
                                    const std::vector<Member>& members, bool defaults)
 {

@@ -40,10 +40,6 @@ public:
     }
 };
 
-/// The names that a model's types and functions start with: `callisto`, or `ue4_default_lit` where
-/// one file's names must not meet another's.
-std::string model_stem(const ir::Module& module, const ir::Model& model, const Dialect& dialect);
-
 /// The members of a structure as records: type, name, value (its default), comment.
 std::vector<Record> member_records(const ir::Module& module, const Dialect& dialect,
                                    const std::vector<Member>& members, bool defaults);

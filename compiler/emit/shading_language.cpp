@@ -29,7 +29,7 @@ public:
                Listing& listing)
         : module_(module), model_(model), dialect_(dialect), listing_(listing),
           inputs_(inputs_of(module, model, dialect)),
-          stem_(pascal(model_stem(module, model, dialect)))
+          stem_(pascal(model_stem(module, model.name, dialect)))
     {
     }
 

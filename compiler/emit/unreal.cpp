@@ -149,7 +149,7 @@ public:
                Listing& listing)
         : module_(module), model_(model), dialect_(dialect), listing_(listing),
           inputs_(inputs_of(module, model, dialect)),
-          snake_stem_(model_stem(module, model, dialect)), stem_(dialect.styled(snake_stem_))
+          snake_stem_(model_stem(module, model.name, dialect)), stem_(dialect.styled(snake_stem_))
     {
     }
 

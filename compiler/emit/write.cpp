@@ -83,8 +83,11 @@ private:
 
     std::string local_name(ExprId id)
     {
-        if (const std::string& given = graph_.name_of(id); !given.empty())
-            return dialect_.styled(given);
+        if (const std::string& given = graph_.name_of(id); !given.empty()) {
+            // The engine's booleans start with a `b`.
+            const bool flag = graph_[id].type == Type::boolean && dialect_.names == Case::pascal;
+            return (flag ? "b" : "") + dialect_.styled(given);
+        }
         std::string name = derived_name(id);
         if (!name.empty()) return name;
         do name = dialect_.styled(fmt::format("t{}", next_++));

@@ -61,8 +61,7 @@ struct ${structure.type}
 };
 
 //% end
-// What ${model.name} gives back: reflected radiance per incident irradiance of a light, so the
-// cosine of the light's angle is in it already.
+// The outputs of ${model.name}. Where a light is meant, the cosine of its angle is in them already.
 struct ${model.result}
 {
 //% for output in model.outputs
