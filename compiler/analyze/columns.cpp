@@ -30,49 +30,118 @@ std::optional<GeometryField> cosine_of(GeometryField field)
     return std::nullopt;
 }
 
-/// A function that takes the geometry as fields that a person can write down, and calls the
-/// given one. A stable field is computed from its cosine unless the table has it.
-ir::Function by_fields(const ir::Module& module, ir::FunctionId id,
-                       std::span<const std::string> header)
-{
-    const ir::Function& callee = module[id];
-    ir::Function entry = callee;
-    entry.graph = {};
-    entry.inputs.clear();
-
-    const auto input = [&entry](const ir::Input& wanted) {
-        if (wanted.origin == Origin::geometry)
-            if (const auto known = entry.find_input(wanted.origin, wanted.which))
-                return entry.graph.input(*known, wanted.type);
-        entry.inputs.push_back(wanted);
-        return entry.graph.input(static_cast<std::uint32_t>(entry.inputs.size() - 1), wanted.type);
-    };
-
-    std::vector<ir::ExprId> operands;
-    for (const ir::Input& wanted : callee.inputs) {
-        const auto field = static_cast<GeometryField>(wanted.which);
-        const auto cosine = wanted.origin == Origin::geometry ? cosine_of(field) : std::nullopt;
-        if (!cosine || contains(header, wanted.name)) {
-            operands.push_back(input(wanted));
-            continue;
-        }
-        const ir::FieldFacts& known = ir::facts(*cosine);
-        ir::Input replacement = wanted;
-        replacement.name = known.name;
-        replacement.range = {known.low, known.high};
-        replacement.which = static_cast<std::uint32_t>(*cosine);
-        const ir::ExprId c = input(replacement);
-        ir::Graph& graph = entry.graph;
-        const ir::ExprId one = graph.literal("1");
-        ir::ExprId companion = graph.apply(ir::Op::subtract, {one, c});
-        if (field == GeometryField::sin2_h)
-            companion =
-                graph.apply(ir::Op::multiply, {companion, graph.apply(ir::Op::add, {one, c})});
-        operands.push_back(companion);
+/// Builds a function that takes what a person can write down and calls the given one: the geometry
+/// as vectors, or as fields without the stable ones; no argument's complement. Both are computed,
+/// unless the table has them.
+class Adapter {
+public:
+    Adapter(const ir::Module& module, ir::FunctionId id, std::span<const std::string> header)
+        : callee_(module[id]), id_(id), header_(header), entry_(callee_)
+    {
+        entry_.graph = {};
+        entry_.inputs.clear();
     }
-    entry.result = entry.graph.call(id, callee.type(), operands, callee.span);
-    return entry;
-}
+
+    ir::Function by_vectors()
+    {
+        bool geometry = false;
+        bool tangents = false;
+        for (const ir::Input& input : callee_.inputs)
+            if (input.origin == Origin::geometry) {
+                geometry = true;
+                tangents |= ir::needs_tangents(static_cast<GeometryField>(input.which));
+            }
+        ir::Frame frame;
+        if (geometry) {
+            frame.l = field(GeometryField::l);
+            frame.v = field(GeometryField::v);
+            frame.n = field(GeometryField::n);
+        }
+        if (tangents) {
+            frame.x = field(GeometryField::x);
+            frame.y = field(GeometryField::y);
+        }
+        return build([&](GeometryField wanted) { return ir::expand(entry_.graph, wanted, frame); });
+    }
+
+    ir::Function by_fields()
+    {
+        return build([&](GeometryField wanted) {
+            const auto cosine = cosine_of(wanted);
+            if (!cosine || contains(header_, ir::facts(wanted).name)) return field(wanted);
+            return complement(field(*cosine), wanted == GeometryField::sin2_h);
+        });
+    }
+
+private:
+    template <class Geometry>
+    ir::Function build(const Geometry& geometry)
+    {
+        std::vector<ir::ExprId> operands;
+        for (const ir::Input& wanted : callee_.inputs) {
+            if (wanted.origin == Origin::geometry)
+                operands.push_back(geometry(static_cast<GeometryField>(wanted.which)));
+            else if (const auto whole = declared(wanted))
+                operands.push_back(complement(input(*whole), false));
+            else
+                operands.push_back(input(wanted));
+        }
+        entry_.result = entry_.graph.call(id_, callee_.type(), operands, callee_.span);
+        return std::move(entry_);
+    }
+
+    /// The argument as it was declared, if this one is the complement that a pass put in its place
+    /// or beside it.
+    std::optional<ir::Input> declared(const ir::Input& wanted) const
+    {
+        constexpr std::string_view prefix = "one_minus_";
+        if (!wanted.complement || contains(header_, wanted.name)) return std::nullopt;
+        ir::Input whole = wanted;
+        whole.complement = false;
+        whole.name = wanted.name.substr(prefix.size());
+        whole.range = {1 - wanted.range.high, 1 - wanted.range.low};
+        return whole;
+    }
+
+    /// 1 - c, or 1 - c^2.
+    ir::ExprId complement(ir::ExprId c, bool squared)
+    {
+        const ir::ExprId one = entry_.graph.literal("1");
+        const ir::ExprId difference = entry_.graph.apply(ir::Op::subtract, {one, c});
+        if (!squared) return difference;
+        const ir::ExprId sum = entry_.graph.apply(ir::Op::add, {one, c});
+        return entry_.graph.apply(ir::Op::multiply, {difference, sum});
+    }
+
+    ir::ExprId field(GeometryField wanted)
+    {
+        const ir::FieldFacts& known = ir::facts(wanted);
+        const auto quantity =
+            known.type == ir::Type::vec3 ? ir::Quantity::direction : ir::Quantity::number;
+        return input({std::string{known.name},
+                      known.type,
+                      quantity,
+                      {known.low, known.high},
+                      Origin::geometry,
+                      static_cast<std::uint32_t>(wanted),
+                      {}});
+    }
+
+    ir::ExprId input(const ir::Input& wanted)
+    {
+        for (std::size_t i = 0; i < entry_.inputs.size(); ++i)
+            if (entry_.inputs[i].name == wanted.name)
+                return entry_.graph.input(static_cast<std::uint32_t>(i), wanted.type);
+        entry_.inputs.push_back(wanted);
+        return entry_.graph.input(static_cast<std::uint32_t>(entry_.inputs.size() - 1),
+                                  wanted.type);
+    }
+
+    const ir::Function& callee_;
+    ir::FunctionId id_;
+    std::span<const std::string> header_;
+    ir::Function entry_;
+};
 
 bool is_vector_column(std::string_view name)
 {
@@ -152,8 +221,8 @@ Binding bind_columns(const ir::Module& module, ir::FunctionId id,
     const bool vectors = has_vectors(header);
     const bool as_fields =
         !vectors && std::ranges::any_of(fields, [&](const auto& f) { return contains(header, f); });
-    const ir::Function entry =
-        as_fields ? by_fields(module, id, header) : ir::entry_point(module, id);
+    Adapter adapter{module, id, header};
+    const ir::Function entry = as_fields ? adapter.by_fields() : adapter.by_vectors();
     binding.tape = evaluate::compile(module, entry);
 
     std::vector<bool> used(header.size(), false);

@@ -45,6 +45,7 @@ struct Input {
     Origin origin{};
     std::uint32_t which = 0;
     Span span;
+    bool complement = false;  ///< one minus the argument that was declared: a pass asked for it
 };
 
 /// `/// slides 85`

@@ -1,6 +1,7 @@
 #include "optimize/rules.h"
 
 #include "evaluate/run.h"
+#include "optimize/complement.h"
 
 #include <algorithm>
 #include <array>
@@ -33,6 +34,10 @@ constexpr std::array rule_table{
          "as one_minus_argument"},
     Rule{"blend_argument", Source::argument, 0, true, "x^2 (a - 1) + 1",
          "a + (1 - a) one_minus_x (1 + x)", "as one_minus_argument"},
+    Rule{"power_of_complement", Source::complement, 0, false, "k - k (1 - y)^3",
+         "k y (1 + x + x^2), x = 1 - y",
+         "the smooth terminator's mask where both directions graze: y is tiny, and 1 - y has "
+         "rounded it away"},
     Rule{"difference_of_squares", Source::factored, 2, false, "k - k x^2", "k (1 - x)(1 + x)",
          "x^2 rounds before the subtraction; 1 - x is exact from 1/2 to 2 (Sterbenz)"},
     Rule{"blend_of_squares", Source::factored, 2, true, "x^2 (a - 1) + 1",
@@ -100,7 +105,7 @@ private:
         // The best source first; among equals the first written.
         std::ranges::stable_sort(variables, {}, [&](ExprId variable) { return source(variable); });
         for (const ExprId variable : variables)
-            for (const int degree : {2, 1})
+            for (const int degree : {3, 2, 1})
                 if (auto match = fit(id, variable, degree)) return match;
         return std::nullopt;
     }
@@ -108,6 +113,7 @@ private:
     Source source(ExprId variable) const
     {
         const Expr& expr = graph_[variable];
+        if (one_minus(graph_, variable)) return Source::complement;
         if (expr.op != Op::input) return Source::factored;
         const Input& input = subject_.function->inputs[expr.aux];
         if (input.origin == Origin::geometry) {
@@ -122,6 +128,7 @@ private:
     {
         const Source from = source(variable);
         if (from == Source::factored && degree == 1) return std::nullopt;  // 1 - x is itself
+        if (from != Source::complement && degree == 3) return std::nullopt;
         if (!reaches_one(subject_.ranges[variable], degree)) return std::nullopt;
 
         const auto parts = split(subject_.sums[id], variable, degree);

@@ -14,6 +14,7 @@
 //     x = cos_d, d = 1    one_minus_cos_d    half angles, from the vectors
 //     x = cos_d, d = 2    one_minus_cos_d (1 + cos_d)
 //     x an argument       one_minus_<x>, when a caller has it (see complement.h)
+//     x = 1 - y           y (1 + x), y (1 + x + x^2): nothing is left to subtract
 //     x anything, d = 2   (1 - x)(1 + x): the subtraction is exact where it cancels, only the
 //                         rounding of x^2 before it was not
 //
@@ -37,6 +38,7 @@ enum class Source : std::uint8_t {
     cos_h,
     cos_d,
     argument,
+    complement,  ///< x is written 1 - y
     factored
 };
 

@@ -78,6 +78,13 @@ private:
             const ExprId argument = rebuild_.complement_input(index);
             return match.degree == 2 ? squared(argument) : argument;
         }
+        case Source::complement: {
+            const ExprId y = read(*one_minus(rebuild_.old().graph, match.variable));
+            if (match.degree == 1) return y;
+            const ExprId tail =
+                match.degree == 2 ? x : apply(Op::multiply, x, apply(Op::add, one, x));
+            return apply(Op::multiply, y, apply(Op::add, one, tail));
+        }
         case Source::factored: return squared(apply(Op::subtract, one, x));
         }
         return {};

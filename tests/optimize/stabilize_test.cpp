@@ -108,6 +108,10 @@ const std::vector<Example> examples{
     {"1 - x^2", "difference_of_squares",
      [](Site& s) { return s.t.subtract(s.one, s.square(s.x)); }},
     {"x^2 (a - 1) + 1", "blend_of_squares", [](Site& s) { return blend(s, s.x, 2); }},
+    {"1 - (1 - x)^2", "power_of_complement",
+     [](Site& s) { return s.t.subtract(s.one, s.square(s.t.subtract(s.one, s.x))); }},
+    {"1 - (1 - x)^3", "power_of_complement",
+     [](Site& s) { return s.t.subtract(s.one, s.t.power(s.t.subtract(s.one, s.x), "3")); }},
 };
 
 const std::vector<Example> call_examples{
@@ -300,6 +304,21 @@ TEST_CASE("a factored square loses nothing that a scalar knows")
     CHECK(worst_error(values(before, before.functions[0], points), truth) > 0x1p-14);
     // 1 - x is exact here (Sterbenz); 1 + x and the product round once each.
     CHECK(worst_error(values(after, after.functions[0], points), truth) <= 2.01 * 0x1p-24);
+}
+
+TEST_CASE("a mask that is tiny keeps its digits")
+{
+    const Module before = optimize::simplify(directly(
+        [](Site& s) { return s.t.subtract(s.one, s.t.power(s.t.subtract(s.one, s.x), "3")); }));
+    const Module after = stabilize(before);
+    Points<float> points;
+    for (int i = 1; i <= 1000; ++i) points["x"].push_back(static_cast<float>(i) * 1e-6F);
+    points["a"] = std::vector<float>(1000, 1.0F);  // a root keeps it, though nothing reads it
+    const auto truth = values(before, before.functions[0], widened(points));
+    // 1 - x is off by 2^-25, its cube by three times that, of a mask of 3e-6.
+    CHECK(worst_error(values(before, before.functions[0], points), truth) > 1e-3);
+    // Six roundings of 2^-24 on sums and products of positive numbers.
+    CHECK(worst_error(values(after, after.functions[0], points), truth) <= 6 * 0x1p-24);
 }
 
 TEST_CASE("a root keeps its declared arguments, and its callees still gain from it")
