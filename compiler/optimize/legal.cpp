@@ -72,8 +72,46 @@ private:
         case Op::arc_cosine:
             if (range(0).low >= -1 && range(0).high <= 1) return std::nullopt;
             return outside(0);
-        default: return std::nullopt;
+        // Total: defined for every operand, or not an operation on numbers.
+        case Op::literal:
+        case Op::input:
+        case Op::negate:
+        case Op::absolute:
+        case Op::sign:
+        case Op::floor:
+        case Op::exp2:
+        case Op::exp:
+        case Op::sine:
+        case Op::cosine:
+        case Op::tangent:
+        case Op::arc_tangent:
+        case Op::saturate:
+        case Op::add:
+        case Op::subtract:
+        case Op::multiply:
+        case Op::minimum:
+        case Op::maximum:
+        case Op::step:
+        case Op::lerp:
+        case Op::clamp:
+        case Op::guarded_smoothstep:
+        case Op::less:
+        case Op::less_equal:
+        case Op::equal:
+        case Op::not_equal:
+        case Op::logical_and:
+        case Op::logical_or:
+        case Op::logical_not:
+        case Op::select:
+        case Op::dot:
+        case Op::length:
+        case Op::cross:
+        case Op::guarded_normalize:
+        case Op::component:
+        case Op::construct:
+        case Op::call: return std::nullopt;
         }
+        return std::nullopt;
     }
 
     /// Every use of this division is the arm of a select that is not taken where its divisor is 0.

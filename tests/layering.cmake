@@ -1,0 +1,65 @@
+# Who may include whom, and which folders may know of a world outside their arguments.
+#
+#   cmake -DCOMPILER=<the folder of the stages> -P layering.cmake
+#
+# compiler/README.md argues the table. A stage may include itself. Files directly in compiler/ are
+# the pipeline and may include everything.
+cmake_minimum_required(VERSION 3.25)
+
+set(stages base syntax ir evaluate check optimize emit verify device analyze report cli)
+set(may_syntax base)
+set(may_ir base)
+set(may_evaluate base ir)
+set(may_check base syntax ir evaluate)
+set(may_optimize base ir evaluate)
+set(may_emit base ir lobe)
+set(may_verify base)
+set(may_device base)
+set(may_analyze base ir evaluate optimize emit verify device)
+set(may_report base analyze emit)
+set(may_cli base syntax ir check evaluate optimize emit verify device analyze report compile.h lobe)
+
+# No files, clock, environment or locale: equal inputs give equal bytes.
+set(hermetic base syntax ir evaluate check optimize emit)
+set(outside chrono clocale ctime filesystem fstream iostream locale thread)
+
+set(broken 0)
+file(GLOB_RECURSE files RELATIVE ${COMPILER} ${COMPILER}/*.cpp ${COMPILER}/*.h ${COMPILER}/*.inc)
+list(SORT files)
+foreach(file IN LISTS files)
+  if(NOT file MATCHES "^([a-z]+)/")
+    continue()
+  endif()
+  set(folder ${CMAKE_MATCH_1})
+  if(folder STREQUAL "include")  # the public header, installed for others
+    continue()
+  endif()
+  if(NOT folder IN_LIST stages)
+    message("${file}: `${folder}` is no stage; add it to tests/layering.cmake and to the map")
+    set(broken 1)
+    continue()
+  endif()
+  file(STRINGS ${COMPILER}/${file} includes REGEX "^#include [\"<]")
+  foreach(include IN LISTS includes)
+    if(include MATCHES "^#include \"([^\"/]+)[\"/]")
+      set(from ${CMAKE_MATCH_1})
+      if(NOT from STREQUAL folder AND NOT from IN_LIST may_${folder})
+        message("${file}: `${folder}` must not include from `${from}`")
+        set(broken 1)
+      endif()
+    elseif(include MATCHES "^#include <([a-z]+)>" AND folder IN_LIST hermetic)
+      if(CMAKE_MATCH_1 IN_LIST outside)
+        message("${file}: `${folder}` is hermetic and must not include <${CMAKE_MATCH_1}>")
+        set(broken 1)
+      endif()
+    endif()
+  endforeach()
+endforeach()
+
+list(LENGTH files count)
+if(count EQUAL 0)
+  message(FATAL_ERROR "no sources in ${COMPILER}")
+endif()
+if(broken)
+  message(FATAL_ERROR "the layering of compiler/README.md is broken")
+endif()
