@@ -16,26 +16,22 @@ bool is_printable(const Character& character)
     return character.valid && !control && !changes_text_direction(character.code);
 }
 
+int width_at(const Character& character, int column)
+{
+    if (character.code == '\t') return tab_stop - column % tab_stop;
+    return is_printable(character) ? display_width(character.code) : 1;
+}
+
 }  // namespace
 
-SourceView::SourceView(std::string_view line)
+SourceView::SourceView(std::string_view line) : line_(line)
 {
+    columns_.reserve(line.size() + 1);
     int column = 0;
     for (std::size_t at = 0; at < line.size();) {
         const Character character = first_character(line.substr(at));
-        Cell cell{column, std::string{line.substr(at, character.size)}};
-        int width = 1;
-        if (character.code == '\t') {
-            width = tab_stop - column % tab_stop;
-            cell.text.assign(static_cast<std::size_t>(width), ' ');
-        } else if (is_printable(character)) {
-            width = display_width(character.code);
-        } else {
-            cell.text = replacement_character;
-        }
-        cells_.push_back(std::move(cell));
         columns_.insert(columns_.end(), character.size, column);
-        column += width;
+        column += width_at(character, column);
         at += character.size;
     }
     columns_.push_back(column);
@@ -50,8 +46,16 @@ std::string SourceView::window(int first, int last) const
 {
     std::string result;
     if (first > 0) result += "...";
-    for (const Cell& cell : cells_)
-        if (cell.column >= first && cell.column < last) result += cell.text;
+    for (std::size_t at = 0; at < line_.size() && columns_[at] < last;) {
+        const Character character = first_character(line_.substr(at));
+        const int column = columns_[at];
+        if (column >= first && character.code == '\t')
+            result.append(static_cast<std::size_t>(width_at(character, column)), ' ');
+        else if (column >= first)
+            result +=
+                is_printable(character) ? line_.substr(at, character.size) : replacement_character;
+        at += character.size;
+    }
     if (last < width()) result += "...";
     return result;
 }

@@ -178,8 +178,9 @@ private:
         while (is_name(peek())) ++at_;
         const std::string_view text = text_.substr(begin, at_ - begin);
         TokenKind kind = TokenKind::identifier;
-        for (const Word& word : words)
-            if (text == word.text) kind = word.kind;
+        if (text.size() <= 4)
+            for (const Word& word : words)
+                if (text == word.text) kind = word.kind;
         push(kind, begin, at_);
     }
 
