@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -100,6 +101,7 @@ Dialect make_glsl_half()
     Dialect half = make_glsl("GLSL 4.50, half precision");
     half.types = {"bool", "float16_t", "f16vec2", "f16vec3", "f16vec4"};
     half.literal_suffix = "hf";
+    half.half_literals = true;
     half.least_normal = "6.103515625e-5hf";
     return half;
 }
@@ -163,6 +165,20 @@ std::string_view geometry_name(ir::GeometryField field)
     return {};
 }
 
+/// The nearest half, ties to even, with every digit it has: glslang cuts half literals off
+/// instead of rounding them, and so would take the next lower half for a shortened one.
+std::string exact_half(double value)
+{
+    constexpr double largest = 65504;
+    const double size = std::fmin(std::fabs(value), largest);
+    const double step = size < 0x1p-14 ? 0x1p-24 : std::ldexp(1.0, std::ilogb(size) - 10);
+    constexpr int decimals = 24;  // of the least half, 2^-24
+    std::string text =
+        fmt::format("{:.{}f}", std::copysign(std::nearbyint(size / step) * step, value), decimals);
+    text.erase(std::max(text.find_last_not_of('0') + 1, text.find('.') + 2));
+    return text;
+}
+
 }  // namespace
 
 Spelling Dialect::spelling(Op op) const
@@ -180,6 +196,7 @@ std::string Dialect::literal(const ir::Literal& literal) const
 
 std::string Dialect::literal(double value) const
 {
+    if (half_literals) return exact_half(value) + std::string{literal_suffix};
     // No float is larger; a shading language has no name for infinity.
     constexpr double largest = std::numeric_limits<float>::max();
     const auto nearest = static_cast<float>(std::fmin(std::fmax(value, -largest), largest));

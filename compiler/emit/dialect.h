@@ -53,6 +53,7 @@ struct Dialect {
     std::string_view name = {};
     std::array<std::string_view, 5> types = {};  ///< ORDER ir::Type
     std::string_view literal_suffix = {};
+    bool half_literals = false;             ///< every digit of the nearest half; see `literal`
     std::string_view local_qualifier = {};  ///< `const ` where a local may be const
     std::string_view call_open = "(";
     std::string_view call_close = ")";
