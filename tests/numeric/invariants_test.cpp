@@ -258,12 +258,13 @@ TEST_CASE("distributions have the same peak")
     }
 }
 
-TEST_CASE("the rational Smith-Beckmann term jumps by 5.7e-5 and exceeds 1 by no more")
+TEST_CASE("the rational Smith-Beckmann term exceeds 1 by at most 6.2e-5")
 {
     const Points points = unit_points({"alpha", "cos_theta"}, count, 180);
     double most = 0;
     for (const double g : one("microfacet", "G1_SmithBeckmann", points)) most = std::max(most, g);
-    CHECK(most <= 1 + 5.7e-5);
+    CHECK(most > 1);
+    CHECK(most <= 1 + 6.2e-5);
 }
 
 TEST_CASE("Schlick's k of half alpha is Smith's at alpha 1")

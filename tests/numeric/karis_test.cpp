@@ -205,7 +205,7 @@ void compare(const Formula& formula, const ir::Module& module, const std::string
             const std::string& expected = rows[i].at("value");
             const Distance off = distance(computed, expected);
             CAPTURE(rows[i].at("id"), rows[i].at("inputs"), expected, computed);
-            CAPTURE(off.relative, off.absolute);
+            CAPTURE(shown(off.relative), shown(off.absolute));
             CHECK(within(off, tolerance));
         }
 }

@@ -5,6 +5,7 @@
 #include "evaluate/real.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <fstream>
 #include <sstream>
@@ -118,5 +119,7 @@ bool within(const Distance& distance, const Tolerance& tolerance)
 {
     return distance.relative <= tolerance.relative || distance.absolute <= tolerance.absolute;
 }
+
+std::string shown(double value) { return fmt::format("{:.3g}", value); }
 
 }  // namespace lobe::tests

@@ -44,5 +44,7 @@ struct Tolerance {
     double absolute = 0;
 };
 bool within(const Distance& distance, const Tolerance& tolerance);
+/// With enough digits to see how far off it is; Catch prints small doubles as 0.
+std::string shown(double value);
 
 }  // namespace lobe::tests
