@@ -22,12 +22,14 @@ bool accepts(const Allowed& allowed, std::size_t point, float value)
            (allowed.low[point] <= value && value <= allowed.high[point]);
 }
 
-double unit_in_last_place(double exact, evaluate::Precision precision)
+/// One unit in the last place of the larger of two values. Of the larger: an error then never
+/// counts more than all the bits that a float has, however small the exact value is.
+double unit_in_last_place(double a, double b, evaluate::Precision precision)
 {
     const bool half = precision == evaluate::Precision::float16;
     const double least_normal = half ? 0x1p-14 : 0x1p-126;
     const int digits = half ? 11 : 24;
-    const double magnitude = std::max(std::abs(exact), least_normal);
+    const double magnitude = std::max({std::abs(a), std::abs(b), least_normal});
     return std::ldexp(1.0, std::ilogb(magnitude) - digits + 1);
 }
 
@@ -66,7 +68,7 @@ struct Maximum {
         if (component < 0) return {};
         WorstError out;
         out.at = witness(reference, point, component, result);
-        out.size = measure(std::abs(out.at->result - out.at->exact), out.at->exact);
+        out.size = measure(out.at->result, out.at->exact);
         return out;
     }
 };
@@ -88,10 +90,12 @@ Agreement compare(const Reference& reference, std::span<const float> results)
     assert(results.size() == outputs * count);
     const evaluate::Precision precision = reference.precision;
     const double least_normal = precision == evaluate::Precision::float16 ? 0x1p-14 : 0x1p-126;
-    const auto absolute = [](double error, double) { return error; };
-    const auto relative = [](double error, double exact) { return error / std::abs(exact); };
-    const auto ulp = [precision](double error, double exact) {
-        return error / unit_in_last_place(exact, precision);
+    const auto absolute = [](double value, double exact) { return std::abs(value - exact); };
+    const auto relative = [](double value, double exact) {
+        return std::abs(value - exact) / std::abs(exact);
+    };
+    const auto ulp = [precision](double value, double exact) {
+        return std::abs(value - exact) / unit_in_last_place(value, exact, precision);
     };
 
     Agreement out;
@@ -116,12 +120,11 @@ Agreement compare(const Reference& reference, std::span<const float> results)
             }
             const double exact = allowed.exact[point];
             if (!std::isfinite(value) || !std::isfinite(exact)) continue;
-            const double error = std::abs(value - exact);
-            worst_absolute.add(error, point, component, value);
-            all_ulp.push_back(ulp(error, exact));
+            worst_absolute.add(absolute(value, exact), point, component, value);
+            all_ulp.push_back(ulp(value, exact));
             worst_ulp.add(all_ulp.back(), point, component, value);
             if (std::abs(exact) >= least_normal)
-                worst_relative.add(relative(error, exact), point, component, value);
+                worst_relative.add(relative(value, exact), point, component, value);
         }
         out.outside += outside;
         out.not_a_number += not_a_number;

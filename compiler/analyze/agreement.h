@@ -51,7 +51,7 @@ struct Agreement {
     std::optional<Witness> example;  ///< the outside point farthest from its interval
     WorstError relative;             ///< of exact values of at least the least normal float
     WorstError absolute;
-    WorstError ulp;                ///< in units of the last place of the exact value's float
+    WorstError ulp;  ///< in units in the last place of the larger of result and exact value
     double ulp_of_99_percent = 0;  ///< 99 % of the defined components are at most this far off
 
     bool agrees() const { return outside == 0; }
