@@ -20,8 +20,9 @@ import microfacet { D_GGX, V_SmithGGX }
 param five : float in [0, 10] = 5 "Exponent"
 
 term proxima(diffuse_color: color, alpha: float in [1/4096, 1], g: geometry) -> color {
-  let bracket = alpha * (0.19 - 0.55 * g.cos_i) * (1 - sqrt(max(-g.v_dot_l, 0))) + g.cos_i
-  if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi * bracket else 0
+  let roughening = alpha * (1 - sqrt(max(-g.v_dot_l, 0)))
+  let brightness = g.cos_i * (1 - 0.55 * roughening) + 0.19 * roughening
+  if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi * brightness else 0
 }
 term lambert(diffuse_color: color, g: geometry) -> color =
   if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi * g.cos_i else 0
