@@ -11,8 +11,8 @@ namespace {
 
 bool is_unit_argument(const Input& input)
 {
-    return input.origin == Origin::argument && input.type == Type::scalar && input.range.low >= 0 &&
-           input.range.high <= 1;
+    return input.origin == Origin::argument && input.type == Type::scalar && !input.complement &&
+           input.range.low >= 0 && input.range.high <= 1;
 }
 
 /// The arguments whose complement a function would use, on its own or for those it calls.

@@ -232,9 +232,15 @@ std::span<const Rule> rules() { return rule_table; }
 
 Subject subject(const Module& module, const Function& function, std::vector<bool> complemented)
 {
-    return {&function, expand_sums(function.graph),
-            evaluate::ranges(module, function, evaluate::declared_ranges(function)),
-            std::move(complemented)};
+    Subject result;
+    result.function = &function;
+    result.sums = expand_sums(function.graph);
+    for (const ExprId id : function.graph.ids())
+        if (function.graph[id].type == Type::scalar)
+            result.first_of.try_emplace(result.sums[id], id);
+    result.ranges = evaluate::ranges(module, function, evaluate::declared_ranges(function));
+    result.complemented = std::move(complemented);
+    return result;
 }
 
 Matches match_rules(const Subject& subject) { return Matcher{subject}.run(); }

@@ -26,6 +26,7 @@
 #include "ir/module.h"
 #include "optimize/sum.h"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -69,6 +70,7 @@ struct Match {
 struct Subject {
     const ir::Function* function = nullptr;
     Facts<ir::Expr, Sum> sums;
+    std::map<Sum, ir::ExprId> first_of;  ///< the first scalar expression that is this sum
     Facts<ir::Expr, evaluate::Interval> ranges;
     std::vector<bool> complemented;  ///< by input: an argument whose complement is to be had
 };

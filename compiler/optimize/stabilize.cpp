@@ -126,14 +126,9 @@ private:
 
     std::optional<ExprId> find(const Sum& wanted, ExprId before)
     {
-        const auto same = [](const Monomial& a, const Monomial& b) {
-            return a.coefficient == b.coefficient && a.factors == b.factors;
-        };
-        for (std::size_t i = 0; i < before.index; ++i)
-            if (rebuild_.old().graph[ExprId{i}].type == Type::scalar &&
-                std::ranges::equal(subject_.sums[ExprId{i}], wanted, same))
-                return read(ExprId{i});
-        return std::nullopt;
+        const auto found = subject_.first_of.find(wanted);
+        if (found == subject_.first_of.end() || before <= found->second) return std::nullopt;
+        return read(found->second);
     }
 
     Rebuild& rebuild_;

@@ -8,6 +8,7 @@
 #include "ir/graph.h"
 
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace lobe::optimize {
@@ -16,6 +17,12 @@ namespace lobe::optimize {
 struct Monomial {
     double coefficient = 1;
     std::vector<ir::ExprId> factors;
+
+    friend bool operator==(const Monomial&, const Monomial&) = default;
+    friend bool operator<(const Monomial& a, const Monomial& b)
+    {
+        return std::tie(a.factors, a.coefficient) < std::tie(b.factors, b.coefficient);
+    }
 };
 
 /// Sorted by factors, no two monomials alike, no zero coefficients. Empty is zero.
