@@ -112,7 +112,7 @@ Record Listing::function(const ir::Function& function, const std::string& name)
                                               inside.empty() ? "(" : dialect_.call_open, inside,
                                               inside.empty() ? ")" : dialect_.call_close);
     return {{{"signature", wrap(signature, 0, dialect_.indent)}},
-            {{"comment", comment(function)}, {"statements", statements(body.locals)}},
+            {{"comment", comment(function, scope.inputs)}, {"statements", statements(body.locals)}},
             tag(function.span)};
 }
 
@@ -150,7 +150,8 @@ std::vector<std::string> Listing::documentation(const std::string& doc,
     return text;
 }
 
-std::vector<Record> Listing::comment(const ir::Function& function) const
+std::vector<Record> Listing::comment(const ir::Function& function,
+                                     const std::vector<std::string>& inputs) const
 {
     std::vector<std::string> text = documentation(function.doc, function.citations, function.span);
     const auto add = [&](const std::string& prose) {
@@ -160,13 +161,13 @@ std::vector<Record> Listing::comment(const ir::Function& function) const
 
     // Fields and parameters have the ranges that their structures state.
     std::string ranges;
-    for (const ir::Input& input : function.inputs) {
+    for (std::size_t i = 0; i < function.inputs.size(); ++i) {
+        const ir::Input& input = function.inputs[i];
         const std::string range = range_text(input.range);
         if (range.empty() || input.origin != ir::Origin::argument ||
             input.quantity == ir::Quantity::direction)
             continue;
-        ranges += fmt::format("{}{} in {}", ranges.empty() ? "Expects " : ", ",
-                              input_name(dialect_, input), range);
+        ranges += fmt::format("{}{} in {}", ranges.empty() ? "Expects " : ", ", inputs[i], range);
     }
     if (!ranges.empty()) ranges += ". ";
     const std::string range = range_text(function.range);

@@ -42,7 +42,8 @@ public:
 
 private:
     Record function(const ir::Function& function, const std::string& name);
-    std::vector<Record> comment(const ir::Function& function) const;
+    std::vector<Record> comment(const ir::Function& function,
+                                const std::vector<std::string>& inputs) const;
     std::string citation(const ir::Citation& citation, const Span& place) const;
 
     const ir::Module& module_;

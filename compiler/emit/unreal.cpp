@@ -194,13 +194,6 @@ private:
         record.lists["comment"] = model_comment(module_, model_, listing_);
         record.lists["roughness"] = {};
         if (rough) record.lists["roughness"] = {{{{"name", "Roughness"}, {"least", least}}, {}}};
-        record.lists["widened"] = {};
-        if (rough_specular)
-            record.lists["widened"] = {{{{"name", "SpecularRoughness"},
-                                         {"roughness", "Roughness"},
-                                         {"energy", "Energy"},
-                                         {"least", least}},
-                                        {}}};
         const bool tangents = inputs_.needs_tangents();
         record.lists["tangents"] = {};
         if (tangents) record.lists["tangents"] = {{{{"x", "X"}, {"y", "Y"}}, {}}};
@@ -208,7 +201,19 @@ private:
         Scope scope = scope_of_body();
         Phase::Points points;
         record.lists["before"] = before(scope, points);
-        record.lists["after"] = after(scope, points, rough_specular);
+        record.lists["specular"] = {};
+        if (!std::ranges::all_of(model_.outputs, is_before)) {
+            Record specular;
+            specular.lists["widened"] = {};
+            if (rough_specular)
+                specular.lists["widened"] = {{{{"name", "SpecularRoughness"},
+                                               {"roughness", "Roughness"},
+                                               {"energy", "Energy"},
+                                               {"least", least}},
+                                              {}}};
+            specular.lists["statements"] = after(scope, points, rough_specular);
+            record.lists["specular"].push_back(std::move(specular));
+        }
         return record;
     }
 
@@ -346,7 +351,8 @@ Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Tar
     values.lists["models"] = std::move(models);
     values.lists["helpers"] = listing.helpers();
 
-    const Rendered rendered = render_embedded("ue4/module.ush", values);
+    Rendered rendered = render_embedded("ue4/module.ush", values);
+    if (rendered.text.ends_with("\n\n")) rendered.text.pop_back();
     return {fmt::format("{}/{}/{}{}", module.name, target.name, language.styled(module.name),
                         target.extension),
             rendered.text, listing.origins(rendered.marks), std::move(calls)};

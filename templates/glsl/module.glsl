@@ -61,7 +61,8 @@ struct ${structure.type}
 };
 
 //% end
-// The outputs of ${model.name}. Where a light is meant, the cosine of its angle is in them already.
+// The outputs of ${model.name}.
+// Where a light is meant, the cosine of its angle is in them already.
 struct ${model.result}
 {
 //% for output in model.outputs

@@ -1,0 +1,191 @@
+// Everything that emission writes, before real compilers: hand-built modules and the models that
+// ship.
+#include "compile.h"
+#include "emit/cases.h"
+#include "emit/emit.h"
+#include "verify/judge.h"
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <sstream>
+
+namespace lobe::tests {
+namespace {
+
+struct Input {
+    ir::Module module;
+    Sources sources;
+};
+
+std::string read(const std::string& path)
+{
+    std::ifstream file{path};
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+Input shipped(const std::string& name)
+{
+    Input input;
+    Diagnostics diagnostics;
+    const auto add = [&](Sources& all, std::string_view module) {
+        const std::string path = "models/" + std::string{module} + ".lobe";
+        return all.add(path, read("../" + path));
+    };
+    const std::uint32_t root = add(input.sources, name);
+    const check::Loader loader = [&](Sources& all, std::string_view module,
+                                     std::string_view) -> std::optional<std::uint32_t> {
+        return add(all, module);
+    };
+    const auto module = front(input.sources, root, loader, diagnostics);
+    REQUIRE(module.has_value());
+    input.module = middle(*module);
+    return input;
+}
+
+verify::Dialect judge_dialect(const emit::Target& target)
+{
+    switch (target.language) {
+    case emit::Language::glsl: return verify::Dialect::glsl;
+    case emit::Language::essl: return verify::Dialect::essl;
+    case emit::Language::hlsl: return verify::Dialect::hlsl;
+    }
+    return {};
+}
+
+/// Warnings are fine where the front end has no `#pragma once`.
+void check_accepted(const verify::Verdict& verdict, const std::string& text)
+{
+    std::string messages;
+    for (const verify::Message& message : verdict.messages) messages += message.text + "\n";
+    CAPTURE(messages, text);
+    CHECK(verdict.accepted);
+    if (!verdict.spirv.empty()) CHECK(verify::validate(verdict.spirv).accepted);
+}
+
+void check_files(const Input& input)
+{
+    for (const emit::Target& target : emit::targets()) {
+        CAPTURE(target.name);
+        for (const emit::Artifact& artifact : emit::emit(input.module, input.sources, target)) {
+            const emit::Framed framed = emit::frame(artifact, target);
+            const bool desktop = target.version == 330 || target.version == 300;
+            check_accepted(desktop ? verify::parse_only(framed.text, judge_dialect(target),
+                                                        verify::Stage::fragment)
+                                   : verify::compile(framed.text, judge_dialect(target),
+                                                     verify::Stage::fragment),
+                           framed.text);
+        }
+    }
+}
+
+void check_harnesses(const Input& input)
+{
+    for (const emit::Target& target : emit::targets())
+        for (const emit::Precision precision :
+             {emit::Precision::float32, emit::Precision::float16}) {
+            if (precision == emit::Precision::float16 && target.name != "glsl450") continue;
+            for (const ir::FunctionId id : input.module.reachable(input.module.roots())) {
+                CAPTURE(target.name, input.module[id].name);
+                const emit::Harness harness =
+                    emit::harness(input.module, input.sources, id, target, precision);
+                check_accepted(verify::compile(harness.artifact.text, judge_dialect(target),
+                                               verify::Stage::compute, harness.entry),
+                               harness.artifact.text);
+            }
+        }
+}
+
+}  // namespace
+
+TEST_CASE("compilers take every file of the small modules", "[emit][judged]")
+{
+    for (const GoldenCase& golden : golden_cases()) {
+        Builder b = golden.build();
+        const Input input{std::move(b.module), std::move(b.sources)};
+        check_files(input);
+        check_harnesses(input);
+    }
+}
+
+TEST_CASE("compilers take every file of the models that ship", "[emit][judged]")
+{
+    for (const char* name : {"microfacet", "callisto", "ue4"}) {
+        const Input input = shipped(name);
+        check_files(input);
+        check_harnesses(input);
+    }
+}
+
+TEST_CASE("no line of a generated file is wider than a page, but the BxDF's own signature",
+          "[emit]")
+{
+    for (const char* name : {"microfacet", "callisto", "ue4"}) {
+        const Input input = shipped(name);
+        for (const emit::Target& target : emit::targets()) {
+            const emit::Artifact artifact = emit::emit(input.module, input.sources, target).front();
+            std::istringstream lines{artifact.text};
+            for (std::string line; std::getline(lines, line);) {
+                if (line.find("FDirectLighting ") == 0 || line.find("// Generated") == 0 ||
+                    line.find("\tif( AreaLight") == 0)
+                    continue;
+                CAPTURE(target.name, line);
+                CHECK(line.size() <= 100);
+                CHECK((line.empty() || (line.back() != ' ' && line.back() != '\t')));
+            }
+        }
+    }
+}
+
+TEST_CASE("every line of a function knows its place in the model", "[emit]")
+{
+    const Input input = shipped("callisto");
+    for (const emit::Target& target : emit::targets()) {
+        CAPTURE(target.name);
+        const emit::Artifact artifact = emit::emit(input.module, input.sources, target).front();
+        int previous = 0;
+        for (const emit::LineOrigin& origin : artifact.origins) {
+            CHECK(origin.first > previous);
+            CHECK(origin.last >= origin.first);
+            CHECK(origin.span.source < input.sources.size());
+            previous = origin.last;
+        }
+        // The citation in a function's comment says the same.
+        std::istringstream lines{artifact.text};
+        int number = 0;
+        int found = 0;
+        for (std::string line; std::getline(lines, line);) {
+            ++number;
+            if (line.find("// models/") != 0) continue;
+            for (const emit::LineOrigin& origin : artifact.origins)
+                if (origin.first <= number && number <= origin.last) {
+                    CHECK("// " + input.sources.cite(origin.span) == line);
+                    ++found;
+                }
+        }
+        CHECK(found > 10);
+    }
+}
+
+TEST_CASE("equal inputs give equal bytes", "[emit]")
+{
+    const Input input = shipped("callisto");
+    for (const emit::Target& target : emit::targets())
+        CHECK(emit::emit(input.module, input.sources, target).front().text ==
+              emit::emit(input.module, input.sources, target).front().text);
+}
+
+TEST_CASE("no path of a machine reaches a generated file", "[emit]")
+{
+    Builder b = golden_cases().front().build();
+    b.module.path = "/home/someone/models/microfacet.lobe";
+    Sources sources;
+    sources.add(b.module.path, b.sources[0].text());
+    for (const emit::Target& target : emit::targets())
+        CHECK(emit::emit(b.module, sources, target).front().text.find("someone") ==
+              std::string::npos);
+}
+
+}  // namespace lobe::tests
