@@ -170,7 +170,8 @@ private:
         if (mutant.swapped) {
             const auto a = static_cast<std::uint32_t>(mutant.swapped->first);
             const auto b = static_cast<std::uint32_t>(mutant.swapped->second);
-            if (std::max(a, b) < function.inputs.size() && is_symmetric(function, a, b))
+            if (std::max(a, b) < function.inputs.size() &&
+                is_symmetric(*parent_.subject.module, parent_.function, a, b))
                 return fmt::format("symmetric in {} and {}", function.inputs[a].name,
                                    function.inputs[b].name);
         }

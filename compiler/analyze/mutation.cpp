@@ -159,6 +159,9 @@ private:
                     {{first.begin, first.end, std::string{second.text}},
                      {second.begin, second.end, std::string{first.text}}},
                     std::pair{static_cast<int>(a), static_cast<int>(b)});
+                // The whole list would hide what was done to it.
+                mutants_.back().before = fmt::format("{}, {}", first.text, second.text);
+                mutants_.back().after = fmt::format("{}, {}", second.text, first.text);
             }
     }
 

@@ -5,9 +5,11 @@
 
 namespace lobe::analyze {
 
-/// True when swapping inputs a and b turns the function's graph into itself, up to the order of
-/// the operands of commutative operations: then the two are equal over the reals. False when that
-/// does not show it, which proves nothing.
-bool is_symmetric(const ir::Function& function, std::uint32_t a, std::uint32_t b);
+/// True when swapping inputs a and b of a function of the module turns what it computes into
+/// itself, up to the order and grouping of sums and products and the order of the operands of
+/// other commutative operations; calls are looked into. Then the two are equal over the reals.
+/// False when that does not show it, which proves nothing.
+bool is_symmetric(const ir::Module& module, ir::FunctionId function, std::uint32_t a,
+                  std::uint32_t b);
 
 }  // namespace lobe::analyze

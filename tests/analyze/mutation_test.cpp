@@ -91,7 +91,9 @@ TEST_CASE("parameters of one type trade places, and callers keep their order", "
     for (analyze::Mutant& mutant : analyze::mutants(harness("return a / b;")))
         if (mutant.mutation == Mutation::swap_inputs) swaps.push_back(std::move(mutant));
     REQUIRE(swaps.size() == 1);
-    CHECK(swaps[0].after == "f(float b, float a)");
+    CHECK(swaps[0].before == "a, b");
+    CHECK(swaps[0].after == "b, a");
+    CHECK(swaps[0].text.find("float f(float b, float a)\n{") != std::string::npos);
     CHECK(swaps[0].swapped == std::pair{0, 1});
     CHECK(swaps[0].function == "f");
     CHECK(swaps[0].text.find("f(y, z)") != std::string::npos);
@@ -117,19 +119,31 @@ TEST_CASE("only lines that stem from a model are changed, and never the entry po
 
 TEST_CASE("symmetry in two inputs is proved, and never claimed where it is not", "[symmetry]")
 {
-    const ir::Function smith = tests::smith();
-    CHECK(analyze::is_symmetric(smith, 1, 2));
-    CHECK_FALSE(analyze::is_symmetric(smith, 0, 1));
+    ir::Module module;
+    module.functions.push_back(tests::smith());
+    const ir::FunctionId smith{0};
+    CHECK(analyze::is_symmetric(module, smith, 1, 2));
+    CHECK_FALSE(analyze::is_symmetric(module, smith, 0, 1));
+    CHECK(analyze::is_symmetric(module, smith, 2, 2));
 
-    tests::FunctionBuilder f{"difference"};
-    const auto a = f.argument("a", 0, 1);
-    const auto b = f.argument("b", 0, 1);
-    const auto c = f.argument("c", 0, 1);
-    const auto difference = f(ir::Op::subtract, {a, b});
-    const ir::Function g =
-        f.finish(f(ir::Op::add, {f(ir::Op::multiply, {difference, difference}), c}));
-    // (a - b)^2 is symmetric over the reals, but this does not show it.
-    CHECK_FALSE(analyze::is_symmetric(g, 0, 1));
-    CHECK_FALSE(analyze::is_symmetric(g, 0, 2));
-    CHECK(analyze::is_symmetric(g, 2, 2));
+    // Through a call, and with the factors grouped in another way: smith(a2, x, y) x (2 y).
+    tests::FunctionBuilder f{"lit"};
+    const auto a2 = f.argument("a2", 0x1p-20, 1);
+    const auto x = f.argument("x", 0x1p-10, 1);
+    const auto y = f.argument("y", 0x1p-10, 1);
+    const ir::ExprId operands[] = {a2, x, y};
+    const auto visibility = f.function.graph.call(smith, ir::Type::scalar, operands);
+    const auto twice = f(ir::Op::multiply, {f.literal("2"), y});
+    module.functions.push_back(
+        f.finish(f(ir::Op::multiply, {f(ir::Op::multiply, {visibility, x}), twice})));
+    CHECK(analyze::is_symmetric(module, ir::FunctionId{1}, 1, 2));
+    CHECK_FALSE(analyze::is_symmetric(module, ir::FunctionId{1}, 0, 2));
+
+    // (a - b)^2 is symmetric over the reals, but its form does not show it.
+    tests::FunctionBuilder g{"difference"};
+    const auto a = g.argument("a", 0, 1);
+    const auto b = g.argument("b", 0, 1);
+    const auto difference = g(ir::Op::subtract, {a, b});
+    module.functions.push_back(g.finish(g(ir::Op::multiply, {difference, difference})));
+    CHECK_FALSE(analyze::is_symmetric(module, ir::FunctionId{2}, 0, 1));
 }

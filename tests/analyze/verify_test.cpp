@@ -92,6 +92,32 @@ TEST_CASE("without a device the judges still judge, and the reason is said", "[v
     }
 }
 
+TEST_CASE("a judge's refusal is quoted and points at the place in the model", "[verify]")
+{
+    emit::Artifact artifact;
+    artifact.path = "sample/glsl450/sample.glsl";
+    artifact.text = "float f(float x)\n{\n    return y;\n}\n";
+    const Span place{0, 3, 9};
+    artifact.origins = {{1, 2, Span{0, 0, 1}}, {3, 3, place}};
+    const auto judgements = analyze::judge_file(artifact, *emit::find_target("glsl450"));
+    REQUIRE(judgements.size() == 1);  // nobody is asked about what the front end refused
+    CHECK_FALSE(judgements[0].accepted);
+    REQUIRE_FALSE(judgements[0].remarks.empty());
+    CHECK(judgements[0].remarks[0].line == 3);
+    CHECK(judgements[0].remarks[0].place == place);
+
+    analyze::Verification verification;
+    verification.judgements = judgements;
+    const Diagnostics said = analyze::complaints(verification, tests::sample_module());
+    REQUIRE(said.all().size() == 1);
+    const Diagnostic& diagnostic = said.all().front();
+    CHECK(diagnostic.code == Code::judge_rejects);
+    CHECK(diagnostic.message == "glslang rejects `sample/glsl450/sample.glsl`");
+    CHECK(diagnostic.primary.span == place);
+    REQUIRE_FALSE(diagnostic.notes.empty());
+    CHECK(diagnostic.notes.front().find(judgements[0].remarks[0].text) != std::string::npos);
+}
+
 TEST_CASE("verify catches every class of mistake", "[kill][device]")
 {
     const ir::Module module = tests::sample_module();
