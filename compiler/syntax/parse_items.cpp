@@ -126,7 +126,9 @@ std::optional<Parser::ItemNode> Parser::parse_item_node(std::string_view keyword
             result.secondary = {{*first_not_import_, "the first declaration"}};
             report(std::move(result));
         }
-        return parse_import();
+        Import import = parse_import();
+        if (import.module.text.empty()) return std::nullopt;
+        return import;
     }
     if (keyword == "source") return named(parse_source());
     if (keyword == "tier") return parse_tier();
