@@ -114,10 +114,10 @@ vec3 c1(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH, float diffus
 // = (1 - (1 - g.cos_d)^3) * (1 - (1 - g.cos_h)^3)
 // Returns [0, 1].
 // models/callisto.lobe:99
-float alpha_s(float OneMinusNoH, float OneMinusVoH)
+float alpha_s(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH)
 {
-    float t0 = 1.0 - OneMinusVoH * OneMinusVoH * OneMinusVoH;
-    return t0 * (1.0 - OneMinusNoH * OneMinusNoH * OneMinusNoH);
+    float t0 = NoH * (1.0 + OneMinusNoH * (1.0 + OneMinusNoH));
+    return t0 * (VoH * (1.0 + OneMinusVoH * (1.0 + OneMinusVoH)));
 }
 
 // Smooth terminator; scales diffuse and specular.
@@ -126,10 +126,10 @@ float alpha_s(float OneMinusNoH, float OneMinusVoH)
 // smooth_terminator * smooth_terminator_tint)
 // Returns [0, 2].
 // models/callisto.lobe:103
-vec3 c2(float NoL, float OneMinusNoH, float OneMinusVoH, float smooth_terminator,
-    vec3 smooth_terminator_tint, float smooth_terminator_length)
+vec3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
+    float smooth_terminator, vec3 smooth_terminator_tint, float smooth_terminator_length)
 {
-    float mask = alpha_s(OneMinusNoH, OneMinusVoH);
+    float mask = alpha_s(NoH, VoH, OneMinusNoH, OneMinusVoH);
     float t0 = guarded_smoothstep(0.0, mask * smooth_terminator_length, NoL);
     return mix(vec3(1.0), vec3(t0), mask * smooth_terminator * smooth_terminator_tint);
 }
@@ -151,18 +151,20 @@ vec3 F_Callisto(vec3 f0, float one_minus_cos_d, float specular_fresnel_falloff)
 // Proxima's diffuse times n.l, fitted to rough facets. Gated: 0 unless light and view are above
 // the horizon.
 //
-// The slide divides by n.l, then multiplies; this is the product. Without the gate it would leave
-// light behind the terminator, where the bracket is 0.19 alpha and not 0.
+// The slide divides by n.l, then multiplies; this is the product, regrouped so that it cannot be
+// negative. Without the gate it would leave light behind the terminator, where it is 0.19 alpha
+// and not 0.
 // slides 128: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
-// = let forward = 1 - sqrt(max(-g.v_dot_l, 0)); let bracket = alpha * (0.19 - 0.55 * g.cos_i) *
-// forward + g.cos_i; if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi * bracket else 0
-// Expects diffuse_color in [0, 1], alpha in [0.0002441406, 1]. Returns [-0.02705634, 0.3192549].
-// models/callisto.lobe:126
+// = let roughening = alpha * (1 - sqrt(max(-g.v_dot_l, 0))); let brightness = g.cos_i * (1 - 0.55
+// * roughening) + 0.19 * roughening; if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi *
+// brightness else 0
+// Expects diffuse_color in [0, 1], alpha in [0.0002441406, 1]. Returns [0, 0.3787888].
+// models/callisto.lobe:127
 vec3 proxima_cos(vec3 diffuse_color, float alpha, float NoL, float NoV, float VoL)
 {
-    float forward = 1.0 - sqrt(max(-VoL, 0.0));
-    float bracket = alpha * (0.19 - 0.55 * NoL) * forward + NoL;
-    return 0.0 < NoL && 0.0 < NoV ? diffuse_color / 3.1415927 * bracket : vec3(0.0);
+    float roughening = alpha * (1.0 - sqrt(max(-VoL, 0.0)));
+    float brightness = NoL * (1.0 - 0.55 * roughening) + 0.19 * roughening;
+    return 0.0 < NoL && 0.0 < NoV ? diffuse_color / 3.1415927 * brightness : vec3(0.0);
 }
 
 // The same radiance in every direction.
@@ -170,7 +172,7 @@ vec3 proxima_cos(vec3 diffuse_color, float alpha, float NoL, float NoV, float Vo
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
 // Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
-// models/microfacet.lobe:250
+// models/microfacet.lobe:251
 vec3 Diffuse_Lambert(vec3 diffuse_color)
 {
     return diffuse_color / 3.1415927;
@@ -180,7 +182,7 @@ vec3 Diffuse_Lambert(vec3 diffuse_color)
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = if g.cos_i > 0 and g.cos_o > 0 then Diffuse_Lambert(diffuse_color) * g.cos_i else 0
 // Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
-// models/callisto.lobe:135
+// models/callisto.lobe:140
 vec3 lambert_cos(vec3 diffuse_color, float NoL, float NoV)
 {
     return 0.0 < NoL && 0.0 < NoV ? Diffuse_Lambert(diffuse_color) * NoL : vec3(0.0);
@@ -218,7 +220,7 @@ float V_SmithGGX(float alpha, float NoL, float NoV)
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = D_GGX(roughness^2, g) * V_SmithGGX(roughness^2, g)
 // Expects roughness in [0.015625, 1]. Returns [4.743187e-09, 8.959627e+13].
-// models/callisto.lobe:142
+// models/callisto.lobe:147
 float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 {
     float roughness2 = roughness * roughness;
@@ -233,7 +235,7 @@ float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 // = let second = min(roughness * dual_specular_roughness_scale, 1); lerp(lobe_ggx(roughness, g),
 // lobe_ggx(second, g), dual_specular_opacity)
 // Expects roughness in [0.015625, 1]. Returns [4.743187e-09, 8.959627e+13].
-// models/callisto.lobe:150
+// models/callisto.lobe:155
 float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
     float dual_specular_roughness_scale, float dual_specular_opacity)
 {
@@ -248,7 +250,7 @@ float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
 // = if g.cos_i > 0 and g.cos_o > 0 then dual_ggx(roughness, g) * F_Callisto(f0, g.cos_d) * g.cos_i
 // else 0
 // Expects f0 in [0, 1], roughness in [0.015625, 1]. Returns [0, 4.479813e+13].
-// models/callisto.lobe:158
+// models/callisto.lobe:163
 vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, float OneMinusVoH,
     float specular_fresnel_falloff, float dual_specular_roughness_scale,
     float dual_specular_opacity)
@@ -262,8 +264,8 @@ vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, fl
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * proxima_cos(s.diffuse_color, s.alpha, g) * c2(g)
-// Returns [-3546.329, 41845.37].
-// models/callisto.lobe:176
+// Returns [0, 49648.6].
+// models/callisto.lobe:181
 vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, float OneMinusNoH,
     float OneMinusVoH, float roughness, vec3 diffuse_color, float diffuse_fresnel,
     float diffuse_fresnel_falloff, float retroreflection, float retroreflection_falloff,
@@ -274,8 +276,8 @@ vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, flo
     vec3 c1_value = c1(NoH, VoH, OneMinusNoH, OneMinusVoH, diffuse_fresnel, diffuse_fresnel_falloff,
         retroreflection, retroreflection_falloff, diffuse_fresnel_tint, retroreflection_tint,
         diffuse_fresnel_tangent_falloff, retroreflection_tangent_falloff);
-    vec3 c2_value = c2(NoL, OneMinusNoH, OneMinusVoH, smooth_terminator, smooth_terminator_tint,
-        smooth_terminator_length);
+    vec3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
+        smooth_terminator_tint, smooth_terminator_length);
     vec3 t0 = c1_value * proxima_cos(diffuse_color, roughness * roughness, NoL, NoV, VoL);
     return t0 * c2_value;
 }
@@ -284,16 +286,17 @@ vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, flo
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // Returns [0, 8.959627e+13].
-// models/callisto.lobe:177
-vec3 callisto_specular(float NoL, float NoV, float NxH2, float OneMinusNoH, float OneMinusVoH,
-    float roughness, vec3 f0, float smooth_terminator, vec3 smooth_terminator_tint,
-    float specular_fresnel_falloff, float dual_specular_roughness_scale,
-    float dual_specular_opacity, float smooth_terminator_length)
+// models/callisto.lobe:182
+vec3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusNoH,
+    float OneMinusVoH, float roughness, vec3 f0, float smooth_terminator,
+    vec3 smooth_terminator_tint, float specular_fresnel_falloff,
+    float dual_specular_roughness_scale, float dual_specular_opacity,
+    float smooth_terminator_length)
 {
     vec3 specular_cos_value = specular_cos(f0, roughness, NoL, NoV, NxH2, OneMinusVoH,
         specular_fresnel_falloff, dual_specular_roughness_scale, dual_specular_opacity);
-    vec3 c2_value = c2(NoL, OneMinusNoH, OneMinusVoH, smooth_terminator, smooth_terminator_tint,
-        smooth_terminator_length);
+    vec3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
+        smooth_terminator_tint, smooth_terminator_length);
     return specular_cos_value * c2_value;
 }
 
@@ -302,7 +305,7 @@ vec3 callisto_specular(float NoL, float NoV, float NxH2, float OneMinusNoH, floa
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * lambert_cos(s.diffuse_color, g) * c2(g)
 // Returns [0, 41721.51].
-// models/callisto.lobe:184
+// models/callisto.lobe:189
 vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float OneMinusNoH,
     float OneMinusVoH, vec3 diffuse_color, float diffuse_fresnel, float diffuse_fresnel_falloff,
     float retroreflection, float retroreflection_falloff, float smooth_terminator,
@@ -313,8 +316,8 @@ vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float 
     vec3 c1_value = c1(NoH, VoH, OneMinusNoH, OneMinusVoH, diffuse_fresnel, diffuse_fresnel_falloff,
         retroreflection, retroreflection_falloff, diffuse_fresnel_tint, retroreflection_tint,
         diffuse_fresnel_tangent_falloff, retroreflection_tangent_falloff);
-    vec3 c2_value = c2(NoL, OneMinusNoH, OneMinusVoH, smooth_terminator, smooth_terminator_tint,
-        smooth_terminator_length);
+    vec3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
+        smooth_terminator_tint, smooth_terminator_length);
     return c1_value * lambert_cos(diffuse_color, NoL, NoV) * c2_value;
 }
 
@@ -323,17 +326,17 @@ vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float 
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // Returns [0, 8.959627e+13].
-// models/callisto.lobe:185
-vec3 callisto_lambert_specular(float NoL, float NoV, float NxH2, float OneMinusNoH,
-    float OneMinusVoH, float roughness, vec3 f0, float smooth_terminator,
+// models/callisto.lobe:190
+vec3 callisto_lambert_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
+    float OneMinusNoH, float OneMinusVoH, float roughness, vec3 f0, float smooth_terminator,
     vec3 smooth_terminator_tint, float specular_fresnel_falloff,
     float dual_specular_roughness_scale, float dual_specular_opacity,
     float smooth_terminator_length)
 {
     vec3 specular_cos_value = specular_cos(f0, roughness, NoL, NoV, NxH2, OneMinusVoH,
         specular_fresnel_falloff, dual_specular_roughness_scale, dual_specular_opacity);
-    vec3 c2_value = c2(NoL, OneMinusNoH, OneMinusVoH, smooth_terminator, smooth_terminator_tint,
-        smooth_terminator_length);
+    vec3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
+        smooth_terminator_tint, smooth_terminator_length);
     return specular_cos_value * c2_value;
 }
 
@@ -401,7 +404,8 @@ struct CallistoSurface
     vec3 f0;
 };
 
-// The outputs of callisto. Where a light is meant, the cosine of its angle is in them already.
+// The outputs of callisto.
+// Where a light is meant, the cosine of its angle is in them already.
 struct CallistoResult
 {
     vec3 diffuse;
@@ -410,7 +414,7 @@ struct CallistoResult
 
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
-// models/callisto.lobe:175
+// models/callisto.lobe:180
 // All vectors have length 1 and point away from the surface.
 CallistoResult callisto(vec3 l, vec3 v, vec3 n, CallistoSurface surface,
     CallistoParameters parameters)
@@ -435,10 +439,11 @@ CallistoResult callisto(vec3 l, vec3 v, vec3 n, CallistoSurface surface,
         parameters.diffuse_fresnel_tint, parameters.retroreflection_tint,
         parameters.smooth_terminator_tint, parameters.diffuse_fresnel_tangent_falloff,
         parameters.retroreflection_tangent_falloff, parameters.smooth_terminator_length);
-    result.specular = callisto_specular(NoL, NoV, NxH2, OneMinusNoH, OneMinusVoH, surface.roughness,
-        surface.f0, parameters.smooth_terminator, parameters.smooth_terminator_tint,
-        parameters.specular_fresnel_falloff, parameters.dual_specular_roughness_scale,
-        parameters.dual_specular_opacity, parameters.smooth_terminator_length);
+    result.specular = callisto_specular(NoL, NoV, NoH, VoH, NxH2, OneMinusNoH, OneMinusVoH,
+        surface.roughness, surface.f0, parameters.smooth_terminator,
+        parameters.smooth_terminator_tint, parameters.specular_fresnel_falloff,
+        parameters.dual_specular_roughness_scale, parameters.dual_specular_opacity,
+        parameters.smooth_terminator_length);
     return result;
 }
 
@@ -506,7 +511,8 @@ struct CallistoLambertSurface
     vec3 f0;
 };
 
-// The outputs of callisto_lambert. Where a light is meant, the cosine of its angle is in them already.
+// The outputs of callisto_lambert.
+// Where a light is meant, the cosine of its angle is in them already.
 struct CallistoLambertResult
 {
     vec3 diffuse;
@@ -516,7 +522,7 @@ struct CallistoLambertResult
 // Callisto over Lambert: at the defaults exactly Lambert, GGX and Schlick.
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
-// models/callisto.lobe:183
+// models/callisto.lobe:188
 // All vectors have length 1 and point away from the surface.
 CallistoLambertResult callisto_lambert(vec3 l, vec3 v, vec3 n, CallistoLambertSurface surface,
     CallistoLambertParameters parameters)
@@ -540,7 +546,7 @@ CallistoLambertResult callisto_lambert(vec3 l, vec3 v, vec3 n, CallistoLambertSu
         parameters.retroreflection_tint, parameters.smooth_terminator_tint,
         parameters.diffuse_fresnel_tangent_falloff, parameters.retroreflection_tangent_falloff,
         parameters.smooth_terminator_length);
-    result.specular = callisto_lambert_specular(NoL, NoV, NxH2, OneMinusNoH, OneMinusVoH,
+    result.specular = callisto_lambert_specular(NoL, NoV, NoH, VoH, NxH2, OneMinusNoH, OneMinusVoH,
         surface.roughness, surface.f0, parameters.smooth_terminator,
         parameters.smooth_terminator_tint, parameters.specular_fresnel_falloff,
         parameters.dual_specular_roughness_scale, parameters.dual_specular_opacity,

@@ -115,10 +115,10 @@ float3 c1(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH, float diff
 // = (1 - (1 - g.cos_d)^3) * (1 - (1 - g.cos_h)^3)
 // Returns [0, 1].
 // models/callisto.lobe:99
-float alpha_s(float OneMinusNoH, float OneMinusVoH)
+float alpha_s(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH)
 {
-    const float t0 = 1.0 - OneMinusVoH * OneMinusVoH * OneMinusVoH;
-    return t0 * (1.0 - OneMinusNoH * OneMinusNoH * OneMinusNoH);
+    const float t0 = NoH * (1.0 + OneMinusNoH * (1.0 + OneMinusNoH));
+    return t0 * (VoH * (1.0 + OneMinusVoH * (1.0 + OneMinusVoH)));
 }
 
 // Smooth terminator; scales diffuse and specular.
@@ -127,10 +127,10 @@ float alpha_s(float OneMinusNoH, float OneMinusVoH)
 // smooth_terminator * smooth_terminator_tint)
 // Returns [0, 2].
 // models/callisto.lobe:103
-float3 c2(float NoL, float OneMinusNoH, float OneMinusVoH, float smooth_terminator,
-    float3 smooth_terminator_tint, float smooth_terminator_length)
+float3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
+    float smooth_terminator, float3 smooth_terminator_tint, float smooth_terminator_length)
 {
-    const float mask = alpha_s(OneMinusNoH, OneMinusVoH);
+    const float mask = alpha_s(NoH, VoH, OneMinusNoH, OneMinusVoH);
     const float t0 = guarded_smoothstep(0.0, mask * smooth_terminator_length, NoL);
     const float3 t1 = mask * smooth_terminator * smooth_terminator_tint;
     return lerp((float3)1.0, (float3)t0, t1);
@@ -153,18 +153,21 @@ float3 F_Callisto(float3 f0, float one_minus_cos_d, float specular_fresnel_fallo
 // Proxima's diffuse times n.l, fitted to rough facets. Gated: 0 unless light and view are above
 // the horizon.
 //
-// The slide divides by n.l, then multiplies; this is the product. Without the gate it would leave
-// light behind the terminator, where the bracket is 0.19 alpha and not 0.
+// The slide divides by n.l, then multiplies; this is the product, regrouped so that it cannot be
+// negative. Without the gate it would leave light behind the terminator, where it is 0.19 alpha
+// and not 0.
 // slides 128: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
-// = let forward = 1 - sqrt(max(-g.v_dot_l, 0)); let bracket = alpha * (0.19 - 0.55 * g.cos_i) *
-// forward + g.cos_i; if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi * bracket else 0
-// Expects diffuse_color in [0, 1], alpha in [0.0002441406, 1]. Returns [-0.02705634, 0.3192549].
-// models/callisto.lobe:126
+// = let roughening = alpha * (1 - sqrt(max(-g.v_dot_l, 0))); let brightness = g.cos_i * (1 - 0.55
+// * roughening) + 0.19 * roughening; if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi *
+// brightness else 0
+// Expects diffuse_color in [0, 1], alpha in [0.0002441406, 1]. Returns [0, 0.3787888].
+// models/callisto.lobe:127
 float3 proxima_cos(float3 diffuse_color, float alpha, float NoL, float NoV, float VoL)
 {
-    const float forward = 1.0 - sqrt(max(-VoL, 0.0));
-    const float bracket = alpha * (0.19 - 0.55 * NoL) * forward + NoL;
-    return 0.0 < NoL && 0.0 < NoV ? diffuse_color / 3.1415927 * bracket : (float3)0.0;
+    const float roughening = alpha * (1.0 - sqrt(max(-VoL, 0.0)));
+    const float brightness = NoL * (1.0 - 0.55 * roughening) + 0.19 * roughening;
+    const float3 t0 = diffuse_color / 3.1415927 * brightness;
+    return 0.0 < NoL && 0.0 < NoV ? t0 : (float3)0.0;
 }
 
 // The same radiance in every direction.
@@ -172,7 +175,7 @@ float3 proxima_cos(float3 diffuse_color, float alpha, float NoL, float NoV, floa
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
 // Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
-// models/microfacet.lobe:250
+// models/microfacet.lobe:251
 float3 Diffuse_Lambert(float3 diffuse_color)
 {
     return diffuse_color / 3.1415927;
@@ -182,7 +185,7 @@ float3 Diffuse_Lambert(float3 diffuse_color)
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = if g.cos_i > 0 and g.cos_o > 0 then Diffuse_Lambert(diffuse_color) * g.cos_i else 0
 // Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
-// models/callisto.lobe:135
+// models/callisto.lobe:140
 float3 lambert_cos(float3 diffuse_color, float NoL, float NoV)
 {
     return 0.0 < NoL && 0.0 < NoV ? Diffuse_Lambert(diffuse_color) * NoL : (float3)0.0;
@@ -220,7 +223,7 @@ float V_SmithGGX(float alpha, float NoL, float NoV)
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = D_GGX(roughness^2, g) * V_SmithGGX(roughness^2, g)
 // Expects roughness in [0.015625, 1]. Returns [4.743187e-09, 8.959627e+13].
-// models/callisto.lobe:142
+// models/callisto.lobe:147
 float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 {
     const float roughness2 = roughness * roughness;
@@ -235,7 +238,7 @@ float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 // = let second = min(roughness * dual_specular_roughness_scale, 1); lerp(lobe_ggx(roughness, g),
 // lobe_ggx(second, g), dual_specular_opacity)
 // Expects roughness in [0.015625, 1]. Returns [4.743187e-09, 8.959627e+13].
-// models/callisto.lobe:150
+// models/callisto.lobe:155
 float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
     float dual_specular_roughness_scale, float dual_specular_opacity)
 {
@@ -251,7 +254,7 @@ float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
 // = if g.cos_i > 0 and g.cos_o > 0 then dual_ggx(roughness, g) * F_Callisto(f0, g.cos_d) * g.cos_i
 // else 0
 // Expects f0 in [0, 1], roughness in [0.015625, 1]. Returns [0, 4.479813e+13].
-// models/callisto.lobe:158
+// models/callisto.lobe:163
 float3 specular_cos(float3 f0, float roughness, float NoL, float NoV, float NxH2, float OneMinusVoH,
     float specular_fresnel_falloff, float dual_specular_roughness_scale,
     float dual_specular_opacity)
@@ -265,8 +268,8 @@ float3 specular_cos(float3 f0, float roughness, float NoL, float NoV, float NxH2
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * proxima_cos(s.diffuse_color, s.alpha, g) * c2(g)
-// Returns [-3546.329, 41845.37].
-// models/callisto.lobe:176
+// Returns [0, 49648.6].
+// models/callisto.lobe:181
 float3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, float OneMinusNoH,
     float OneMinusVoH, float roughness, float3 diffuse_color, float diffuse_fresnel,
     float diffuse_fresnel_falloff, float retroreflection, float retroreflection_falloff,
@@ -277,7 +280,7 @@ float3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, f
     const float3 c1_value = c1(NoH, VoH, OneMinusNoH, OneMinusVoH, diffuse_fresnel,
         diffuse_fresnel_falloff, retroreflection, retroreflection_falloff, diffuse_fresnel_tint,
         retroreflection_tint, diffuse_fresnel_tangent_falloff, retroreflection_tangent_falloff);
-    const float3 c2_value = c2(NoL, OneMinusNoH, OneMinusVoH, smooth_terminator,
+    const float3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
         smooth_terminator_tint, smooth_terminator_length);
     const float3 t0 = c1_value * proxima_cos(diffuse_color, roughness * roughness, NoL, NoV, VoL);
     return t0 * c2_value;
@@ -287,15 +290,16 @@ float3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, f
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // Returns [0, 8.959627e+13].
-// models/callisto.lobe:177
-float3 callisto_specular(float NoL, float NoV, float NxH2, float OneMinusNoH, float OneMinusVoH,
-    float roughness, float3 f0, float smooth_terminator, float3 smooth_terminator_tint,
-    float specular_fresnel_falloff, float dual_specular_roughness_scale,
-    float dual_specular_opacity, float smooth_terminator_length)
+// models/callisto.lobe:182
+float3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusNoH,
+    float OneMinusVoH, float roughness, float3 f0, float smooth_terminator,
+    float3 smooth_terminator_tint, float specular_fresnel_falloff,
+    float dual_specular_roughness_scale, float dual_specular_opacity,
+    float smooth_terminator_length)
 {
     const float3 specular_cos_value = specular_cos(f0, roughness, NoL, NoV, NxH2, OneMinusVoH,
         specular_fresnel_falloff, dual_specular_roughness_scale, dual_specular_opacity);
-    const float3 c2_value = c2(NoL, OneMinusNoH, OneMinusVoH, smooth_terminator,
+    const float3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
         smooth_terminator_tint, smooth_terminator_length);
     return specular_cos_value * c2_value;
 }
@@ -305,7 +309,7 @@ float3 callisto_specular(float NoL, float NoV, float NxH2, float OneMinusNoH, fl
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * lambert_cos(s.diffuse_color, g) * c2(g)
 // Returns [0, 41721.51].
-// models/callisto.lobe:184
+// models/callisto.lobe:189
 float3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float OneMinusNoH,
     float OneMinusVoH, float3 diffuse_color, float diffuse_fresnel, float diffuse_fresnel_falloff,
     float retroreflection, float retroreflection_falloff, float smooth_terminator,
@@ -316,7 +320,7 @@ float3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, floa
     const float3 c1_value = c1(NoH, VoH, OneMinusNoH, OneMinusVoH, diffuse_fresnel,
         diffuse_fresnel_falloff, retroreflection, retroreflection_falloff, diffuse_fresnel_tint,
         retroreflection_tint, diffuse_fresnel_tangent_falloff, retroreflection_tangent_falloff);
-    const float3 c2_value = c2(NoL, OneMinusNoH, OneMinusVoH, smooth_terminator,
+    const float3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
         smooth_terminator_tint, smooth_terminator_length);
     return c1_value * lambert_cos(diffuse_color, NoL, NoV) * c2_value;
 }
@@ -326,16 +330,16 @@ float3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, floa
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // Returns [0, 8.959627e+13].
-// models/callisto.lobe:185
-float3 callisto_lambert_specular(float NoL, float NoV, float NxH2, float OneMinusNoH,
-    float OneMinusVoH, float roughness, float3 f0, float smooth_terminator,
+// models/callisto.lobe:190
+float3 callisto_lambert_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
+    float OneMinusNoH, float OneMinusVoH, float roughness, float3 f0, float smooth_terminator,
     float3 smooth_terminator_tint, float specular_fresnel_falloff,
     float dual_specular_roughness_scale, float dual_specular_opacity,
     float smooth_terminator_length)
 {
     const float3 specular_cos_value = specular_cos(f0, roughness, NoL, NoV, NxH2, OneMinusVoH,
         specular_fresnel_falloff, dual_specular_roughness_scale, dual_specular_opacity);
-    const float3 c2_value = c2(NoL, OneMinusNoH, OneMinusVoH, smooth_terminator,
+    const float3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
         smooth_terminator_tint, smooth_terminator_length);
     return specular_cos_value * c2_value;
 }
@@ -404,7 +408,8 @@ struct CallistoSurface
     float3 f0;
 };
 
-// The outputs of callisto. Where a light is meant, the cosine of its angle is in them already.
+// The outputs of callisto.
+// Where a light is meant, the cosine of its angle is in them already.
 struct CallistoResult
 {
     float3 diffuse;
@@ -413,7 +418,7 @@ struct CallistoResult
 
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
-// models/callisto.lobe:175
+// models/callisto.lobe:180
 // All vectors have length 1 and point away from the surface.
 CallistoResult callisto(float3 l, float3 v, float3 n, CallistoSurface surface,
     CallistoParameters parameters)
@@ -438,10 +443,11 @@ CallistoResult callisto(float3 l, float3 v, float3 n, CallistoSurface surface,
         parameters.diffuse_fresnel_tint, parameters.retroreflection_tint,
         parameters.smooth_terminator_tint, parameters.diffuse_fresnel_tangent_falloff,
         parameters.retroreflection_tangent_falloff, parameters.smooth_terminator_length);
-    result.specular = callisto_specular(NoL, NoV, NxH2, OneMinusNoH, OneMinusVoH, surface.roughness,
-        surface.f0, parameters.smooth_terminator, parameters.smooth_terminator_tint,
-        parameters.specular_fresnel_falloff, parameters.dual_specular_roughness_scale,
-        parameters.dual_specular_opacity, parameters.smooth_terminator_length);
+    result.specular = callisto_specular(NoL, NoV, NoH, VoH, NxH2, OneMinusNoH, OneMinusVoH,
+        surface.roughness, surface.f0, parameters.smooth_terminator,
+        parameters.smooth_terminator_tint, parameters.specular_fresnel_falloff,
+        parameters.dual_specular_roughness_scale, parameters.dual_specular_opacity,
+        parameters.smooth_terminator_length);
     return result;
 }
 
@@ -509,7 +515,8 @@ struct CallistoLambertSurface
     float3 f0;
 };
 
-// The outputs of callisto_lambert. Where a light is meant, the cosine of its angle is in them already.
+// The outputs of callisto_lambert.
+// Where a light is meant, the cosine of its angle is in them already.
 struct CallistoLambertResult
 {
     float3 diffuse;
@@ -519,7 +526,7 @@ struct CallistoLambertResult
 // Callisto over Lambert: at the defaults exactly Lambert, GGX and Schlick.
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
-// models/callisto.lobe:183
+// models/callisto.lobe:188
 // All vectors have length 1 and point away from the surface.
 CallistoLambertResult callisto_lambert(float3 l, float3 v, float3 n, CallistoLambertSurface surface,
     CallistoLambertParameters parameters)
@@ -543,7 +550,7 @@ CallistoLambertResult callisto_lambert(float3 l, float3 v, float3 n, CallistoLam
         parameters.retroreflection_tint, parameters.smooth_terminator_tint,
         parameters.diffuse_fresnel_tangent_falloff, parameters.retroreflection_tangent_falloff,
         parameters.smooth_terminator_length);
-    result.specular = callisto_lambert_specular(NoL, NoV, NxH2, OneMinusNoH, OneMinusVoH,
+    result.specular = callisto_lambert_specular(NoL, NoV, NoH, VoH, NxH2, OneMinusNoH, OneMinusVoH,
         surface.roughness, surface.f0, parameters.smooth_terminator,
         parameters.smooth_terminator_tint, parameters.specular_fresnel_falloff,
         parameters.dual_specular_roughness_scale, parameters.dual_specular_opacity,

@@ -141,7 +141,7 @@ float G_Kelemen(float NoL, float NoV, float VoH)
 }
 
 // Smith masking for Beckmann's distribution, as a rational function of c = cot(theta) / alpha.
-// Exceeds 1 by at most 5.7e-5 for c in (1.548, 1.6), and jumps back to 1 at 1.6.
+// Exceeds 1 for c in (1.548, 1.6), by at most 6.2e-5, and jumps back to 1 at 1.6.
 // Walter07 eq 27: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = let c = cos_theta / (alpha * sqrt(1 - cos_theta^2)) else 1.6; if c < 1.6 then (3.535 * c +
 // 2.181 * c^2) / (1 + 2.276 * c + 2.577 * c^2) else 1
@@ -370,26 +370,28 @@ vec3 F_Schlick_spherical_gaussian(vec3 f0, float VoH)
 //
 // With s = sqrt(f0) the paper's eta is (1 + s) / (1 - s), infinite for a perfect mirror. Here its
 // g and c are both multiplied by 1 - s, which leaves every ratio as it was: eta^2 + c^2 - 1
-// becomes 4 s + ((1 - s) c)^2, and g - c becomes 4 s / (g + c).
+// becomes 4 s + ((1 - s) c)^2, and g - c becomes 4 s / (g + c). 1 - s itself is (1 - f0) / (1 +
+// s).
 // Cook82: Cook and Torrance 1982, A Reflectance Model for Computer Graphics
 // Karis13b: Karis 2013, Specular BRDF Reference
-// = let s = sqrt(f0); let c = (1 - s) * cos_d; let sum = sqrt(4 * s + c^2) + c; let difference = 4
-// * s / sum else 0; let amplitude = difference / sum else 0; let polarization = (sum * cos_d - (1
-// - s)) / (difference * cos_d + (1 - s)) else 1; 0.5 * amplitude^2 * (1 + polarization^2)
+// = let s = sqrt(f0); let contrast = (1 - f0) / (1 + s); let c = contrast * cos_d; let sum =
+// sqrt(4 * s + c^2) + c; let difference = 4 * s / sum else 0; let amplitude = difference / sum
+// else 0; let polarization = (sum * cos_d - contrast) / (difference * cos_d + contrast) else 1;
+// 0.5 * amplitude^2 * (1 + polarization^2)
 // Expects f0 in [0, 1], VoH in [0, 1]. Returns [0, inf).
 // models/microfacet.lobe:226
 float F_dielectric(float f0, float VoH)
 {
     float s = sqrt(f0);
-    float one_minus_s = 1.0 - s;
-    float c = one_minus_s * VoH;
+    float contrast = (1.0 - f0) / (1.0 + s);
+    float c = contrast * VoH;
     float t0 = 4.0 * s;
     float sum = sqrt(t0 + c * c) + c;
     bool t1 = sum == 0.0;
     float difference = t1 ? 0.0 : t0 / sum;
     float amplitude = t1 ? 0.0 : difference / sum;
-    float t2 = difference * VoH + one_minus_s;
-    float polarization = t2 == 0.0 ? 1.0 : (sum * VoH - one_minus_s) / t2;
+    float t2 = difference * VoH + contrast;
+    float polarization = t2 == 0.0 ? 1.0 : (sum * VoH - contrast) / t2;
     return 0.5 * (amplitude * amplitude) * (1.0 + polarization * polarization);
 }
 
@@ -397,7 +399,7 @@ float F_dielectric(float f0, float VoH)
 // Cook82: Cook and Torrance 1982, A Reflectance Model for Computer Graphics
 // = color(F_dielectric(f0.r, cos_d), F_dielectric(f0.g, cos_d), F_dielectric(f0.b, cos_d))
 // Expects f0 in [0, 1], VoH in [0, 1]. Returns [0, inf).
-// models/microfacet.lobe:242
+// models/microfacet.lobe:243
 vec3 F_CookTorrance(vec3 f0, float VoH)
 {
     float F = F_dielectric(f0.r, VoH);
@@ -409,7 +411,7 @@ vec3 F_CookTorrance(vec3 f0, float VoH)
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
 // Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
-// models/microfacet.lobe:250
+// models/microfacet.lobe:251
 vec3 Diffuse_Lambert(vec3 diffuse_color)
 {
     return diffuse_color / 3.1415927;
@@ -420,7 +422,7 @@ vec3 Diffuse_Lambert(vec3 diffuse_color)
 // = let at_grazing = 0.5 + 2 * roughness * g.cos_d^2; let lit = 1 + (at_grazing - 1) * (1 -
 // g.cos_i)^5; let seen = 1 + (at_grazing - 1) * (1 - g.cos_o)^5; diffuse_color / pi * lit * seen
 // Expects diffuse_color in [0, 1], roughness in [0.015625, 1]. Returns [0, 1.989437].
-// models/microfacet.lobe:254
+// models/microfacet.lobe:255
 vec3 Diffuse_Burley(vec3 diffuse_color, float roughness, float NoL, float NoV, float VoH)
 {
     float at_grazing = 0.5 + 2.0 * roughness * (VoH * VoH);
@@ -443,7 +445,7 @@ vec3 Diffuse_Burley(vec3 diffuse_color, float roughness, float NoL, float NoV, f
 // ratio = max(g.v_dot_l - g.cos_i * g.cos_o, 0) / max(g.cos_i, g.cos_o) else 0; diffuse_color / pi
 // * (a + b * ratio)
 // Expects diffuse_color in [0, 1], sigma in [0, 1.570796]. Returns [-0.09643265, inf).
-// models/microfacet.lobe:266
+// models/microfacet.lobe:267
 vec3 Diffuse_OrenNayar(vec3 diffuse_color, float sigma, float NoL, float NoV, float VoL)
 {
     float sigma2 = sigma * sigma;

@@ -127,7 +127,7 @@ vec3 EnvBRDFApprox(vec3 f0, float roughness, float NoV)
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
 // Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
-// models/microfacet.lobe:250
+// models/microfacet.lobe:251
 vec3 Diffuse_Lambert(vec3 diffuse_color)
 {
     return diffuse_color / 3.1415927;
@@ -226,7 +226,8 @@ struct DefaultLitSurface
     vec3 f0;
 };
 
-// The outputs of default_lit. Where a light is meant, the cosine of its angle is in them already.
+// The outputs of default_lit.
+// Where a light is meant, the cosine of its angle is in them already.
 struct DefaultLitResult
 {
     vec3 diffuse;
@@ -266,7 +267,8 @@ struct MobileSurface
     float roughness;
 };
 
-// The outputs of mobile. Where a light is meant, the cosine of its angle is in them already.
+// The outputs of mobile.
+// Where a light is meant, the cosine of its angle is in them already.
 struct MobileResult
 {
     vec3 diffuse;
@@ -302,7 +304,8 @@ struct MobileEnvironmentSurface
     float roughness;
 };
 
-// The outputs of mobile_environment. Where a light is meant, the cosine of its angle is in them already.
+// The outputs of mobile_environment.
+// Where a light is meant, the cosine of its angle is in them already.
 struct MobileEnvironmentResult
 {
     vec3 specular;
