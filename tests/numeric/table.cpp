@@ -92,6 +92,13 @@ std::string product(const std::string& a, const std::string& b)
     return value.text();
 }
 
+std::string quotient(const std::string& a, const std::string& b)
+{
+    Real value{a, bits};
+    mpfr_div(value.get(), value.get(), Real{b, bits}.get(), MPFR_RNDN);
+    return value.text();
+}
+
 std::string sum(const std::string& a, const std::string& b)
 {
     Real value{a, bits};

@@ -29,6 +29,7 @@ std::vector<std::vector<std::string>> evaluate(const ir::Module& module,
 /// Arithmetic on decimals, exact to 400 bits.
 std::string square(const std::string& decimal);
 std::string product(const std::string& a, const std::string& b);
+std::string quotient(const std::string& a, const std::string& b);
 std::string sum(const std::string& a, const std::string& b);
 
 /// |computed - expected|, and that over |expected|; exact to 400 bits whatever the texts hold.
