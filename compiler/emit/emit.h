@@ -50,6 +50,16 @@ struct Harness {
 Harness harness(const ir::Module& module, const Sources& sources, ir::FunctionId function,
                 const Target& target, Precision precision);
 
+/// One output of a model's BxDF for Unreal, as emitted, under a point light of radiance 1.
+struct BxdfCheck {
+    ir::Module module;        ///< the module, with `function` added
+    ir::FunctionId function;  ///< what the BxDF must compute, over vectors
+    Harness harness;          ///< its inputs are those of the function's entry point
+};
+/// Every output of every BxDF of a module. Not those that share a member of the engine's result,
+/// and not those of models with a tangent frame, whose context the stand-in does not define.
+std::vector<BxdfCheck> bxdf_checks(const ir::Module& module, const Sources& sources);
+
 /// Text that makes an artifact a whole shader for its judge: the version line, the stand-in
 /// prelude of the engine, a main that calls every root so that nothing is dropped. Line counts tell
 /// how far the artifact's lines move.

@@ -49,6 +49,16 @@ std::vector<Artifact> emit(const ir::Module& module, const Sources& sources, con
                                  : emit_shading_language(module, sources, target)};
 }
 
+Framed insert(std::string text, const std::string& artifact)
+{
+    constexpr std::string_view here = "//@ artifact\n";
+    const auto at = text.find(here);
+    const auto before =
+        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    text.replace(at, here.size(), artifact);
+    return {std::move(text), static_cast<int>(before) + 1};
+}
+
 Framed frame(const Artifact& artifact, const Target& target)
 {
     Record values{{}, {{"calls", lines(artifact.calls)}}};
@@ -67,14 +77,7 @@ Framed frame(const Artifact& artifact, const Target& target)
                         {"location", located ? "layout(location = 0) " : ""},
                         {"precision", es ? "highp " : ""}};
     }
-    // The artifact goes in as it is: no template sees it.
-    constexpr std::string_view here = "//@ artifact\n";
-    std::string text = render_embedded(path, values).text;
-    const auto at = text.find(here);
-    const auto before =
-        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    text.replace(at, here.size(), artifact.text);
-    return {std::move(text), static_cast<int>(before) + 1};
+    return insert(render_embedded(path, values).text, artifact.text);
 }
 
 }  // namespace lobe::emit

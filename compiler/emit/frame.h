@@ -20,6 +20,10 @@ std::vector<Record> module_doc(const ir::Module& module);
 /// Our stand-in for the part of the engine's shaders that a BxDF stands on.
 std::string unreal_prelude();
 
+/// A rendered frame with an artifact in place of its `//@ artifact` line. The artifact goes in as
+/// it is: no template sees it.
+Framed insert(std::string frame, const std::string& artifact);
+
 /// A value of a type for the frame's main: of its only input, so that nothing folds.
 std::string sample(const Dialect& dialect, ir::Type type);
 /// A number that depends on every component of a value.

@@ -6,6 +6,8 @@
 // the context. For a point light they come from the vectors, as everywhere; where SphereMaxNoH has
 // moved the half vector no vector is left that belongs to it, and they come from the moved cosines,
 // which is as accurate as these: a light of that size has no peak finer than a float can resolve.
+#include "emit/unreal.h"
+
 #include "emit/frame.h"
 #include "emit/model.h"
 
@@ -17,25 +19,6 @@ namespace lobe::emit {
 namespace {
 
 using Field = ir::GeometryField;
-
-constexpr double least_roughness = 0x1p-6;
-
-std::string upper_snake(std::string_view name)
-{
-    std::string result;
-    for (const char c : name) result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    return result;
-}
-
-/// True when a light's direction matters: more is asked than the normal and the eye.
-bool is_lit(const ModelInputs& inputs)
-{
-    return std::ranges::any_of(inputs.geometry, [](Field field) {
-        return field != Field::n && field != Field::v && field != Field::cos_o &&
-               field != Field::x && field != Field::y && field != Field::x_dot_v &&
-               field != Field::y_dot_v;
-    });
-}
 
 /// Fields that the engine's context lacks.
 bool is_stable(Field field) { return !ir::facts(field).nameable; }
@@ -70,19 +53,12 @@ public:
 
     ir::ExprId surface(ir::SurfaceField field)
     {
-        switch (field) {
-        case ir::SurfaceField::base_color: return vector("GBuffer.BaseColor");
-        case ir::SurfaceField::metallic: return scalar("GBuffer.Metallic");
-        case ir::SurfaceField::specular: return scalar("GBuffer.Specular");
-        case ir::SurfaceField::roughness: return scalar(roughness_);
-        case ir::SurfaceField::alpha: {
+        if (field == ir::SurfaceField::roughness) return scalar(roughness_);
+        if (field == ir::SurfaceField::alpha) {
             const ir::ExprId roughness = scalar(roughness_);
             return text.graph.apply(ir::Op::multiply, {roughness, roughness});
         }
-        case ir::SurfaceField::diffuse_color: return vector("GBuffer.DiffuseColor");
-        case ir::SurfaceField::f0: return vector("GBuffer.SpecularColor");
-        }
-        return {};
+        return text.input(std::string{gbuffer_field(field)}, ir::facts(field).type);
     }
 
 private:
@@ -162,13 +138,14 @@ public:
             Record structure;
             structure.texts = {{"type", listing_.unique("F" + stem_ + "Parameters")},
                                {"defaults", listing_.unique(stem_ + "Defaults")},
-                               {"macro", upper_snake(snake_stem_) + "_PARAMETERS"}};
+                               {"function", listing_.unique(stem_ + "ParametersOf")},
+                               {"macro", parameters_macro(snake_stem_)}};
             structure.lists["members"] =
                 member_records(module_, dialect_, inputs_.parameters, true);
             record.lists["parameters"].push_back(std::move(structure));
         }
         record.lists["bxdfs"] = {};
-        if (!is_lit(inputs_) || !inputs_.arguments.empty()) return record;
+        if (!has_bxdf(inputs_)) return record;
         record.lists["bxdfs"].push_back(bxdf());
         const std::string& name = record.lists["bxdfs"].front().texts.at("name");
         calls.push_back(fmt::format("frame_sum += FrameBxDF( {}( FrameGBuffer( frame_x ), "
@@ -224,19 +201,6 @@ private:
                 input.which == static_cast<std::uint32_t>(ir::SurfaceField::alpha));
     }
 
-    /// Diffuse and transmitted light do not follow the mirror direction of a light with a size.
-    static bool is_before(const ir::ModelOutput& output)
-    {
-        return output.name == "diffuse" || output.name == "transmission";
-    }
-
-    /// An output whose name the engine does not know is a lobe more: specular.
-    static std::string_view engine_name(const ir::ModelOutput& output)
-    {
-        if (output.name == "diffuse") return "Diffuse";
-        return output.name == "transmission" ? "Transmission" : "Specular";
-    }
-
     ir::ExprId call(Phase& phase, const ir::ModelOutput& output) const
     {
         return phase.text.call(module_, output.function, [&](const ir::Input& input) {
@@ -254,7 +218,7 @@ private:
     Statement add_to(const ir::ModelOutput& output, std::string_view light,
                      const std::string& value) const
     {
-        return {fmt::format("Lighting.{} += {} * {};", engine_name(output), light, value),
+        return {fmt::format("Lighting.{} += {} * {};", engine_output(output), light, value),
                 module_[output.function].span};
     }
 
@@ -333,6 +297,49 @@ private:
 };
 
 }  // namespace
+
+bool is_before(const ir::ModelOutput& output)
+{
+    return output.name == "diffuse" || output.name == "transmission";
+}
+
+std::string_view engine_output(const ir::ModelOutput& output)
+{
+    if (output.name == "diffuse") return "Diffuse";
+    return output.name == "transmission" ? "Transmission" : "Specular";
+}
+
+bool has_bxdf(const ModelInputs& inputs)
+{
+    // True when a light's direction matters: more is asked than the normal and the eye.
+    const bool lit = std::ranges::any_of(inputs.geometry, [](Field field) {
+        return field != Field::n && field != Field::v && field != Field::cos_o &&
+               field != Field::x && field != Field::y && field != Field::x_dot_v &&
+               field != Field::y_dot_v;
+    });
+    return lit && inputs.arguments.empty();
+}
+
+std::string parameters_macro(std::string_view stem)
+{
+    std::string result;
+    for (const char c : stem) result += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    return result + "_PARAMETERS";
+}
+
+std::string_view gbuffer_field(ir::SurfaceField field)
+{
+    switch (field) {
+    case ir::SurfaceField::base_color: return "GBuffer.BaseColor";
+    case ir::SurfaceField::metallic: return "GBuffer.Metallic";
+    case ir::SurfaceField::specular: return "GBuffer.Specular";
+    case ir::SurfaceField::roughness:
+    case ir::SurfaceField::alpha: return "GBuffer.Roughness";
+    case ir::SurfaceField::diffuse_color: return "GBuffer.DiffuseColor";
+    case ir::SurfaceField::f0: return "GBuffer.SpecularColor";
+    }
+    return {};
+}
 
 Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Target& target)
 {

@@ -1,49 +1,16 @@
 // Everything that emission writes, before real compilers: hand-built modules and the models that
 // ship.
-#include "compile.h"
 #include "emit/cases.h"
 #include "emit/emit.h"
+#include "emit/shipped.h"
 #include "verify/judge.h"
 
 #include <catch2/catch.hpp>
 
-#include <fstream>
 #include <sstream>
 
 namespace lobe::tests {
 namespace {
-
-struct Input {
-    ir::Module module;
-    Sources sources;
-};
-
-std::string read(const std::string& path)
-{
-    std::ifstream file{path};
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-Input shipped(const std::string& name)
-{
-    Input input;
-    Diagnostics diagnostics;
-    const auto add = [&](Sources& all, std::string_view module) {
-        const std::string path = "models/" + std::string{module} + ".lobe";
-        return all.add(path, read("../" + path));
-    };
-    const std::uint32_t root = add(input.sources, name);
-    const check::Loader loader = [&](Sources& all, std::string_view module,
-                                     std::string_view) -> std::optional<std::uint32_t> {
-        return add(all, module);
-    };
-    const auto module = front(input.sources, root, loader, diagnostics);
-    REQUIRE(module.has_value());
-    input.module = middle(*module);
-    return input;
-}
 
 verify::Dialect judge_dialect(const emit::Target& target)
 {
@@ -65,7 +32,7 @@ void check_accepted(const verify::Verdict& verdict, const std::string& text)
     if (!verdict.spirv.empty()) CHECK(verify::validate(verdict.spirv).accepted);
 }
 
-void check_files(const Input& input)
+void check_files(const Shipped& input)
 {
     for (const emit::Target& target : emit::targets()) {
         CAPTURE(target.name);
@@ -81,7 +48,7 @@ void check_files(const Input& input)
     }
 }
 
-void check_harnesses(const Input& input)
+void check_harnesses(const Shipped& input)
 {
     for (const emit::Target& target : emit::targets())
         for (const emit::Precision precision :
@@ -104,7 +71,7 @@ TEST_CASE("compilers take every file of the small modules", "[emit][judged]")
 {
     for (const GoldenCase& golden : golden_cases()) {
         Builder b = golden.build();
-        const Input input{std::move(b.module), std::move(b.sources)};
+        const Shipped input{std::move(b.module), std::move(b.sources)};
         check_files(input);
         check_harnesses(input);
     }
@@ -113,7 +80,7 @@ TEST_CASE("compilers take every file of the small modules", "[emit][judged]")
 TEST_CASE("compilers take every file of the models that ship", "[emit][judged]")
 {
     for (const char* name : {"microfacet", "callisto", "ue4"}) {
-        const Input input = shipped(name);
+        const Shipped input = shipped(name);
         check_files(input);
         check_harnesses(input);
     }
@@ -123,7 +90,7 @@ TEST_CASE("no line of a generated file is wider than a page, but the BxDF's own 
           "[emit]")
 {
     for (const char* name : {"microfacet", "callisto", "ue4"}) {
-        const Input input = shipped(name);
+        const Shipped input = shipped(name);
         for (const emit::Target& target : emit::targets()) {
             const emit::Artifact artifact = emit::emit(input.module, input.sources, target).front();
             std::istringstream lines{artifact.text};
@@ -141,7 +108,7 @@ TEST_CASE("no line of a generated file is wider than a page, but the BxDF's own 
 
 TEST_CASE("every line of a function knows its place in the model", "[emit]")
 {
-    const Input input = shipped("callisto");
+    const Shipped input = shipped("callisto");
     for (const emit::Target& target : emit::targets()) {
         CAPTURE(target.name);
         const emit::Artifact artifact = emit::emit(input.module, input.sources, target).front();
@@ -171,7 +138,7 @@ TEST_CASE("every line of a function knows its place in the model", "[emit]")
 
 TEST_CASE("equal inputs give equal bytes", "[emit]")
 {
-    const Input input = shipped("callisto");
+    const Shipped input = shipped("callisto");
     for (const emit::Target& target : emit::targets())
         CHECK(emit::emit(input.module, input.sources, target).front().text ==
               emit::emit(input.module, input.sources, target).front().text);
