@@ -173,8 +173,10 @@ std::optional<ExprId> Site::divide()
     if (is(1, -1)) return make(Op::negate, {operand(0)});
     if (is(0, 0) && excludes_zero(range(1))) return literal(0);
     if (same(0, 1) && excludes_zero(range(0)) && finite(range(0))) return literal(1);
+    // Where the divisor can be 0, a select tests just this divisor; it must not change its sign.
     const bool both = is_op(operand(0), Op::negate) && is_op(operand(1), Op::negate);
-    if (both) return make(Op::divide, {inside(operand(0)), inside(operand(1))});
+    if (both && excludes_zero(range(1)))
+        return make(Op::divide, {inside(operand(0)), inside(operand(1))});
     return std::nullopt;
 }
 

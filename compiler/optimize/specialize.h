@@ -25,6 +25,14 @@ using Settings = std::map<std::string, std::vector<double>>;
 /// the settings decide is a constant; `truth` (truth.h) reads it.
 ir::Module specialize(const ir::Module& module, const Settings& settings);
 
+/// The module where these inputs stay in narrower ranges: parameters and surface fields, by name.
+/// Functions that are no roots are then called with less than they were declared for; their
+/// arguments' ranges become what their callers pass. Guards that this makes needless go in
+/// `legalize`. A range is intersected with the declared one; where they do not meet, the declared
+/// one stays.
+using Limits = std::map<std::string, ir::Range>;
+ir::Module narrow(const ir::Module& module, const Limits& limits);
+
 /// Every parameter at its default.
 Settings defaults(const ir::Module& module);
 

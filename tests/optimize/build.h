@@ -91,11 +91,11 @@ inline ir::Module empty_module()
     return module;
 }
 
-/// A module with one parameterless root.
-inline ir::Module only(Term term, ir::ExprId result)
+/// A module with this root alone. By reference: `only(t, t.add(x, y))` must see the sum.
+inline ir::Module only(const Term& term, ir::ExprId result)
 {
     ir::Module module = empty_module();
-    term.in(module, result);
+    Term{term}.in(module, result);
     return module;
 }
 

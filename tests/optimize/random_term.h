@@ -40,7 +40,7 @@ inline ir::Module random_term(std::mt19937& random, int size)
     };
 
     for (int i = 0; i < size; ++i) {
-        switch (std::uniform_int_distribution<int>{0, 19}(random)) {
+        switch (std::uniform_int_distribution<int>{0, 21}(random)) {
         case 0: scalars.push_back(term.add(x(), x())); break;
         case 1: scalars.push_back(term.subtract(x(), x())); break;
         case 2: scalars.push_back(term.multiply(small(), small())); break;
@@ -69,6 +69,14 @@ inline ir::Module random_term(std::mt19937& random, int size)
         }
         case 17: scalars.push_back(term.function.graph.component(choose(vectors), i % 3)); break;
         case 18: vectors.push_back(term.add(choose(vectors), either())); break;
+        case 20: {  // a division with a limit
+            const ir::ExprId divisor = small();
+            const ir::ExprId quotient = term.divide(term.op(Op::negate, {small()}), divisor);
+            scalars.push_back(term.op(
+                Op::select, {term.op(Op::equal, {divisor, term.number("0")}), x(), quotient}));
+            break;
+        }
+        case 21: scalars.push_back(term.subtract(term.number("1"), term.multiply(x(), x()))); break;
         case 19: {
             const ir::ExprId weight = term.op(Op::saturate, {x()});
             vectors.push_back(term.op(Op::lerp, {either(), choose(vectors), weight}));

@@ -186,3 +186,38 @@ TEST_CASE("with one effect on, the others stay absent")
     CHECK_FALSE(has("c1"));
     CHECK_FALSE(has("blend_weight"));
 }
+
+TEST_CASE("when a scene narrows a range, the guard goes")
+{
+    const Module callisto = read_model("../models/callisto.lobe");
+    const auto guards = [](const Module& module) {
+        const Module legal = optimize::optimize(module);
+        CHECK_FALSE(optimize::illegal(legal));
+        const Function& function = legal[legal.find("blend_weight").value()];
+        int found = 0;
+        for (const ExprId id : function.graph.ids())
+            found += function.graph[id].op == Op::guarded_power ? 1 : 0;
+        return found;
+    };
+    CHECK(guards(callisto) == 2);  // a falloff of 1 makes the exponent 0
+    optimize::Limits limits;
+    for (const char* name :
+         {"diffuse_fresnel_falloff", "retroreflection_falloff", "diffuse_fresnel_tangent_falloff"})
+        limits[name] = {0, 0.75};
+    CHECK(guards(optimize::narrow(callisto, limits)) == 1);  // one caller may still pass 0
+    limits["retroreflection_tangent_falloff"] = {0, 0.75};
+    CHECK(guards(optimize::narrow(callisto, limits)) == 0);
+}
+
+TEST_CASE("ranges only become narrower, and roots' arguments keep theirs")
+{
+    const Example example;
+    const Module wider = optimize::narrow(example.module, {{"width", {-1, 9}}});
+    CHECK(wider.parameters[0].range == Range{0, 1});
+    const Module apart = optimize::narrow(example.module, {{"width", {2, 3}}});
+    CHECK(apart.parameters[0].range == Range{0, 1});
+    const Module half = optimize::narrow(example.module, {{"width", {0.25, 0.5}}});
+    CHECK(half[example.root].inputs[1].range == Range{0.25, 0.5});
+    CHECK(half[example.lobe].inputs[1].range == Range{0.25, 0.5});
+    CHECK(half[example.root].inputs[0].range == Range{0, 1});
+}

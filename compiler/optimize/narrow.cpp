@@ -1,0 +1,80 @@
+// What a scene says about ranges, handed down from the roots to everything they call.
+#include "evaluate/run.h"
+#include "optimize/rewrite.h"
+#include "optimize/specialize.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace lobe::optimize {
+
+using namespace ir;
+using evaluate::Interval;
+
+namespace {
+
+Range intersection(const Range& declared, const Range& wanted)
+{
+    const Range both{std::max(declared.low, wanted.low), std::min(declared.high, wanted.high)};
+    return both.low <= both.high ? both : declared;
+}
+
+void limit_inputs(Module& module, const Limits& limits)
+{
+    for (Parameter& parameter : module.parameters)
+        if (const auto found = limits.find(parameter.name); found != limits.end())
+            parameter.range = intersection(parameter.range, found->second);
+    for (Function& function : module.functions)
+        for (Input& input : function.inputs) {
+            if (input.origin != Origin::parameter && input.origin != Origin::surface) continue;
+            if (const auto found = limits.find(input.name); found != limits.end())
+                input.range = intersection(input.range, found->second);
+        }
+}
+
+/// The hull of what was passed to each argument, if anything was.
+using Passed = std::vector<std::vector<std::optional<Range>>>;
+
+void observe(const Module& module, const Function& caller, Passed& passed)
+{
+    const Graph& graph = caller.graph;
+    const auto uses = use_counts(graph, caller.result);
+    const auto ranges = evaluate::ranges(module, caller, evaluate::declared_ranges(caller));
+    for (const ExprId id : graph.ids()) {
+        if (graph[id].op != Op::call || uses[id] == 0) continue;
+        const auto operands = graph.operands(id);
+        for (std::size_t i = 0; i < operands.size(); ++i) {
+            const Interval& range = ranges[operands[i]];
+            auto& hull = passed[graph[id].aux][i];
+            hull = hull ? Range{std::min(hull->low, range.low), std::max(hull->high, range.high)}
+                        : Range{range.low, range.high};
+        }
+    }
+}
+
+}  // namespace
+
+Module narrow(const Module& module, const Limits& limits)
+{
+    Module result = module;
+    limit_inputs(result, limits);
+
+    const std::vector<bool> is_root = root_flags(result);
+    const std::vector<FunctionId> reachable = result.reachable(result.roots());
+    Passed passed;
+    for (const Function& function : result.functions) passed.emplace_back(function.inputs.size());
+    // Callers come after their callees, so from the back every range is final when it is read.
+    for (auto id = reachable.rbegin(); id != reachable.rend(); ++id) {
+        Function& function = result.functions[id->index];
+        for (std::size_t i = 0; i < function.inputs.size() && !is_root[id->index]; ++i) {
+            Input& input = function.inputs[i];
+            const auto& hull = passed[id->index][i];
+            if (input.origin == Origin::argument && hull)
+                input.range = intersection(input.range, *hull);
+        }
+        observe(result, function, passed);
+    }
+    return result;
+}
+
+}  // namespace lobe::optimize
