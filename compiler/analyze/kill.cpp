@@ -234,7 +234,7 @@ KillReport kill(std::span<const KillSubject> subjects, const KillOptions& option
     KillReport out;
     auto device = device::Device::open(options.device, out.no_device);
     if (!device) return out;
-    out.device = fmt::format("{}, {}", device->facts().name, device->facts().driver);
+    out.device = fmt::format("{}; driver {}", device->facts().name, device->facts().driver);
 
     std::vector<Parent> parents = parents_of(subjects, options.targets);
     for (const Parent& parent : parents) out.available += parent.mutants.size();

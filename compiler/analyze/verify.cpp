@@ -128,7 +128,8 @@ public:
         out_.module = module_.name;
         if (options_.execute) device_ = device::Device::open(options_.device, out_.no_device);
         if (device_)
-            out_.device = fmt::format("{}, {}", device_->facts().name, device_->facts().driver);
+            out_.device =
+                fmt::format("{}; driver {}", device_->facts().name, device_->facts().driver);
         plan();
 
         Schedule schedule{subjects_, files_.size(), files_.size() + out_.rows.size(),

@@ -32,7 +32,7 @@ Record texts(std::initializer_list<std::pair<const std::string, std::string>> va
     return record;
 }
 
-constexpr int bar_width = 120;
+constexpr int bar_width = 96;
 
 /// Where an error of so many ulps stands on the bar: bits of a float that it costs.
 double bar_length(double ulp)
