@@ -6,9 +6,12 @@
 namespace lobe::check {
 namespace {
 
-/// Boxes that one proof may look at, and what all of them together may cost in operations.
+/// Boxes that one proof may look at, and halvings that one range is worth.
 constexpr std::size_t most_boxes = 4096;
-constexpr std::size_t most_work = 40'000'000;
+constexpr std::size_t most_turns = 64;
+/// What one proof may cost of all effort, and one range: a range is never needed, only nice.
+constexpr std::size_t proof_share = 5;
+constexpr std::size_t range_share = 200;
 /// Above this many expressions slopes cost more than halving boxes.
 constexpr std::size_t most_slope_expressions = 200'000;
 
@@ -29,8 +32,13 @@ double cut(const Interval& range)
 
 }  // namespace
 
-BoxProof::BoxProof(const Flat& flat, std::vector<Requirement> claims, double slack)
-    : flat_(flat), claims_(std::move(claims)), slack_(slack), analysis_(flat),
+std::size_t Effort::times(std::size_t cost, std::size_t most) const
+{
+    return std::clamp<std::size_t>(left / (cost + 1), 1, most);
+}
+
+BoxProof::BoxProof(const Flat& flat, std::vector<Requirement> claims, double slack, Effort& effort)
+    : flat_(flat), claims_(std::move(claims)), slack_(slack), effort_(effort), analysis_(flat),
       whole_(analysis_.declared()), slopes_(flat.roots.size())
 {
     for (std::size_t i = 0; i < analysis_.inputs().size(); ++i)
@@ -119,11 +127,11 @@ std::optional<std::size_t> BoxProof::widest(const Box& box) const
 
 bool BoxProof::prove()
 {
-    const std::size_t cost = flat_.function.graph.size() * (1 + varied_.size());
-    const std::size_t budget = std::clamp<std::size_t>(most_work / (cost + 1), 1, most_boxes);
+    const std::size_t budget = effort_.times(cost() * proof_share, most_boxes);
     std::vector<Box> open{whole_};
     for (std::size_t seen = 0; !open.empty(); ++seen) {
         if (seen == budget) return false;
+        effort_.spend(cost());
         const Box box = std::move(open.back());
         open.pop_back();
         if (holds(box) || holds_by_slopes(box)) continue;
@@ -158,8 +166,7 @@ Interval BoxProof::range(std::size_t root)
         Interval range;
     };
     std::vector<Part> parts{{whole_, bounds(root, whole_)}};
-    const std::size_t cost = flat_.function.graph.size() * (1 + varied_.size());
-    const std::size_t turns = std::clamp<std::size_t>(most_work / 64 / (cost + 1), 1, 64);
+    const std::size_t turns = effort_.times(cost() * range_share, most_turns + 1) - 1;
     for (std::size_t turn = 0; turn < turns; ++turn) {
         const auto extreme = turn % 2 == 0
                                  ? std::ranges::max_element(
@@ -169,6 +176,7 @@ Interval BoxProof::range(std::size_t root)
         const auto split = widest(extreme->box);
         if (!split) break;
         const double middle = cut(extreme->box[*split]);
+        effort_.spend(8 * cost());  // two parts, two ends, up to four faces each
         Part upper{extreme->box, {}};
         Part lower = upper;
         upper.box[*split].low = middle;

@@ -86,7 +86,7 @@ private:
             report_size(draft, size, diagnostics);
             return std::nullopt;
         }
-        const bool proved = prove(program_, lowered.draft, sources_, diagnostics);
+        const bool proved = prove(program_, lowered.draft, sources_, effort_, diagnostics);
         if (!lowered.good || !proved) return std::nullopt;
         program_.functions.push_back(lowered.draft.finish());
         program_.sizes.push_back(size);
@@ -144,6 +144,7 @@ private:
     const Sources& sources_;
     Diagnostics& diagnostics_;
     Declarations declarations_;
+    Effort effort_;
     std::uint64_t operations_ = 0;
     bool reported_together_ = false;
 };

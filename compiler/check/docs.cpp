@@ -55,15 +55,30 @@ bool is_locator(const std::vector<std::string_view>& words)
     return true;
 }
 
+/// `Walter07`, `Karis2013b`: a name that ends in a year.
+bool ends_in_year(std::string_view name)
+{
+    if (!is_digit(name.back())) name.remove_suffix(1);
+    const std::size_t letters = name.find_last_not_of("0123456789") + 1;
+    const std::size_t digits = name.size() - letters;
+    return letters >= 3 && (digits == 2 || digits == 4);
+}
+
 /// A line that can only be meant as a citation, whether or not its source is declared: a name
-/// and a number, or one name that ends in a year.
+/// and a number, with at most one word such as `eq` between, or a name that ends in a year.
 bool looks_cited(const std::vector<std::string_view>& words)
 {
-    const std::string_view name = words[0];
-    if (words.size() == 1)
-        return name.size() > 3 && is_digit(name[name.size() - 1]) &&
-               is_digit(name[name.size() - 2]);
-    return is_number(words.back()) && is_locator(words);
+    const auto is_word = [](std::string_view word) {
+        std::string lower{word};
+        if (!lower.empty() && lower[0] >= 'A' && lower[0] <= 'Z')
+            lower[0] = static_cast<char>(lower[0] - 'A' + 'a');
+        return std::ranges::find(locator_words, lower) != locator_words.end();
+    };
+    if (words.size() == 1) return ends_in_year(words[0]);
+    const bool capital = words[0][0] >= 'A' && words[0][0] <= 'Z';
+    if (capital && is_word(words[0])) return false;  // `Figure 3`
+    return (words.size() == 2 && is_number(words[1])) ||
+           (words.size() == 3 && is_word(words[1]) && is_number(words[2]));
 }
 
 }  // namespace

@@ -13,15 +13,26 @@ using ir::Range;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Stands for "above 0": small enough to lose nothing, large enough that halving it stays above.
-constexpr double least = 0x1p-1000;
+/// Stands for "above 0": the smallest positive float, so in float nothing lies between. Products
+/// of some such values still do not underflow in double.
+constexpr double least = 0x1p-149;
+
+ExprId constant(ir::Graph& graph, double value)
+{
+    // The common ones need no conversion to exact decimal digits.
+    if (value == 0) return graph.literal("0");
+    if (value == 1) return graph.literal("1");
+    return graph.literal(value);
+}
 
 /// An expression known to lie in a range.
 ExprId clamped(ir::Graph& graph, ExprId value, const Range& range)
 {
     if (graph[value].type == ir::Type::boolean) return value;
-    if (range.low > -infinity) value = graph.apply(Op::maximum, {value, graph.literal(range.low)});
-    if (range.high < infinity) value = graph.apply(Op::minimum, {value, graph.literal(range.high)});
+    if (range.low > -infinity)
+        value = graph.apply(Op::maximum, {value, constant(graph, range.low)});
+    if (range.high < infinity)
+        value = graph.apply(Op::minimum, {value, constant(graph, range.high)});
     return value;
 }
 

@@ -28,8 +28,8 @@ double slack_of(Obligation::Kind kind)
 
 class Proving {
 public:
-    Proving(const std::vector<ir::Function>& functions, const Draft& draft)
-        : functions_(functions), draft_(draft), graph_(draft.function.graph)
+    Proving(const std::vector<ir::Function>& functions, const Draft& draft, Effort& effort)
+        : functions_(functions), draft_(draft), graph_(draft.function.graph), effort_(effort)
     {
         measure();
     }
@@ -44,7 +44,7 @@ public:
         }
         BoxProof proof{
             flatten(functions_, draft_.function, subjects(obligation), sharpened(obligation.given)),
-            requirements(obligation), slack_of(obligation.kind)};
+            requirements(obligation), slack_of(obligation.kind), effort_};
         return proof.prove();
     }
 
@@ -63,7 +63,7 @@ public:
         finding.obligation = obligation;
         std::vector<ExprId> roots = subjects(obligation);
         BoxProof ranges{flatten(functions_, draft_.function, roots, sharpened(obligation.given)),
-                        requirements(obligation), 0};
+                        requirements(obligation), 0, effort_};
         for (std::size_t i = 0; i < roots.size(); ++i) finding.ranges.push_back(ranges.range(i));
 
         Search search;
@@ -93,8 +93,11 @@ public:
     {
         const ExprId result = draft_.function.result;
         if (graph_[result].type == ir::Type::boolean) return {0, 1};
-        BoxProof proof{flatten(functions_, draft_.function, {&result, 1}, {}), {Requirement{}}, 0};
-        const Interval inferred = proof.range(0);
+        BoxProof proof{
+            flatten(functions_, draft_.function, {&result, 1}, {}), {Requirement{}}, 0, effort_};
+        // Past a declared range, tighter ones are of little use.
+        const bool declared_so = draft_.function.declared_range.has_value();
+        const Interval inferred = declared_so ? proof.quick_range(0) : proof.range(0);
         ir::Range range{-infinity, infinity};
         if (inferred.low <= inferred.high) range = {inferred.low, inferred.high};
         if (const auto& declared = draft_.function.declared_range) {
@@ -181,6 +184,7 @@ private:
     const std::vector<ir::Function>& functions_;
     const Draft& draft_;
     const ir::Graph& graph_;
+    Effort& effort_;
     std::vector<std::vector<Interval>> known_;  ///< per expression of the draft, where asked for
 };
 
@@ -214,9 +218,10 @@ Diagnostic describe_unused(const NamedLimit& limit, const Sources& sources)
 
 }  // namespace
 
-bool prove(const Program& program, Draft& draft, const Sources& sources, Diagnostics& diagnostics)
+bool prove(const Program& program, Draft& draft, const Sources& sources, Effort& effort,
+           Diagnostics& diagnostics)
 {
-    const Proving proving{program.functions, draft};
+    const Proving proving{program.functions, draft, effort};
     bool proved = true;
     for (const Obligation& obligation : draft.obligations) {
         if (proving.holds(obligation)) continue;
