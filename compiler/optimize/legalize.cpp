@@ -1,10 +1,11 @@
 // Every operation either cannot leave its domain or carries its guard; see legal.h.
 //
 // Two steps. First powers: a literal exponent that is a multiple of one half becomes products
-// and a square root, which cannot be undefined, cost less than a power and round less (x^5 by
-// products: 4e-7 relative; by exp2 and log2: up to 80 ulp). Then guards: those that the ranges
-// prove needless go, and where rounding alone could leave a domain that the real numbers keep,
-// the argument is held inside it.
+// and a square root. They cannot be undefined, and x^5 rounds three times, where a device's
+// pow(x, 5) may round like exp2(5 log2 x), five times a logarithm's 3 ulp and more ([VulkanSpec]
+// "Precision and Operation of SPIR-V Instructions"). Then guards: those that the ranges prove
+// needless go, and where rounding alone could leave a domain that the real numbers keep, the
+// argument is held inside it.
 //
 // Over the real numbers nothing changes, except that an argument of log or inverse_square_root
 // below the smallest normal float counts as that float: there float has nothing better to say.

@@ -16,12 +16,15 @@ namespace {
 
 constexpr std::array rule_table{
     Rule{"one_minus_cos_h", Source::cos_h, 1, false, "k - k cos_h", "k one_minus_cos_h",
-         "cos_h rounds to 1 for all h within 2e-4 rad of n, and lobes peak there"},
-    Rule{"sine_squared_h", Source::cos_h, 2, false, "k - k cos_h^2", "k sin2_h",
-         "the exponent of Beckmann's lobe: 1.2e5 ulp without it [facts: hard case 23]"},
+         "cos_h rounds to 1 for every h within 2^-12 rad of n, and lobes peak there"},
+    Rule{
+        "sine_squared_h", Source::cos_h, 2, false, "k - k cos_h^2", "k sin2_h",
+        "the exponent of Beckmann's lobe ([Walter07] eq. 25): cos_h^2 knows its distance from 1 to "
+        "2^-25, and alpha^2 divides it"},
     Rule{"blend_h", Source::cos_h, 0, true, "cos_h^2 (a - 1) + 1", "a + (1 - a) sin2_h",
-         "the denominator of GGX at its peak: relative error above 1 without it, and the "
-         "replacement is provably at least a [facts: hard cases 1 to 4]"},
+         "the denominator of GGX ([Walter07] eq. 33) at its peak, where 2^-25 stands beside "
+         "alpha^2; "
+         "and the replacement is at least a by inspection"},
     Rule{"one_minus_cos_d", Source::cos_d, 1, false, "k - k cos_d", "k one_minus_cos_d",
          "Schlick's base, whose fifth power multiplies its relative error by five"},
     Rule{"sine_squared_d", Source::cos_d, 2, false, "k - k cos_d^2",
@@ -42,7 +45,7 @@ constexpr std::array rule_table{
          "x^2 rounds before the subtraction; 1 - x is exact from 1/2 to 2 (Sterbenz)"},
     Rule{"blend_of_squares", Source::factored, 2, true, "x^2 (a - 1) + 1",
          "a + (1 - a)(1 - x)(1 + x)",
-         "GGX from a cosine alone: 7 ulp of what the cosine itself allows"},
+         "GGX from a cosine alone: all that the cosine still knows of its distance from 1"},
 };
 
 /// Where x stays away from 1 and -1 the subtraction loses less than one bit, and costs nothing.
