@@ -1,13 +1,13 @@
 #include "analyze/points.h"
 
+#include "analyze/directions.h"
+#include "analyze/grid.h"
 #include "analyze/random.h"
 #include "evaluate/tape.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 namespace lobe::analyze {
 namespace {
@@ -16,50 +16,6 @@ using evaluate::Precision;
 
 constexpr std::size_t direction_cases = static_cast<std::size_t>(Directions::both_below) + 1;
 constexpr std::size_t value_cases = static_cast<std::size_t>(Values::one_hostile) + 1;
-
-struct Vector {
-    double x = 0, y = 0, z = 0;
-};
-
-Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vector operator*(double s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
-double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vector unit(const Vector& a) { return (1 / std::sqrt(dot(a, a))) * a; }
-
-// ---- numbers of a grid
-
-/// What is particular about a float format as a set of numbers.
-struct Grid {
-    Precision precision{};
-    double largest = 0;  ///< finite
-    double least_normal = 0;
-    double least = 0;  ///< above 0
-    int digits = 0;    ///< of the significand, with the hidden one
-};
-
-const Grid& grid_of(Precision precision)
-{
-    static constexpr Grid single{Precision::float32, 0x1.fffffep127, 0x1p-126, 0x1p-149, 24};
-    static constexpr Grid half{Precision::float16, 65504, 0x1p-14, 0x1p-24, 11};
-    return precision == Precision::float16 ? half : single;
-}
-
-/// The distance from a value to the next one away from zero.
-double step_at(double value, const Grid& grid)
-{
-    const double magnitude = std::abs(value);
-    if (magnitude < grid.least_normal) return grid.least;
-    return std::ldexp(1.0, std::ilogb(magnitude) - grid.digits + 1);
-}
-
-double next_above(double value, const Grid& grid)
-{
-    // Below zero the next number up has the smaller magnitude, and its binade counts.
-    if (value < 0) return value + step_at(std::nextafter(value, 0.0), grid);
-    return std::min(value + step_at(value, grid), grid.largest);
-}
-
-double next_below(double value, const Grid& grid) { return -next_above(-value, grid); }
 
 // ---- values of one scalar
 
@@ -120,145 +76,6 @@ double hostile(Random& random, const Scalar& scalar, Values values, const Grid& 
     case Values::upper_ends: return scalar.parameter ? scalar.high : anywhere(random, scalar);
     }
     return scalar.low;
-}
-
-// ---- directions
-
-/// Uniform on the sphere: by rejection, which needs no trigonometric function.
-Vector on_sphere(Random& random)
-{
-    for (;;) {
-        const Vector candidate{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
-        const double square = dot(candidate, candidate);
-        if (square <= 1 && square >= 0x1p-20) return unit(candidate);
-    }
-}
-
-struct Basis {
-    Vector x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-
-    Vector operator()(double a, double b, double c) const { return a * x + (b * y + c * z); }
-};
-
-/// Half of the frames are the axes themselves, where mirror images are exact in floats.
-Basis any_basis(Random& random)
-{
-    Basis basis;
-    if (random.coin()) return basis;
-    basis.z = on_sphere(random);
-    const Vector& n = basis.z;
-    // Any vector that is not along n, made orthogonal to it.
-    const Vector other = std::abs(n.x) < 0.5 ? Vector{1, 0, 0} : Vector{0, 1, 0};
-    const Vector side = unit(other + (-dot(other, n)) * n);
-    const Vector up{n.y * side.z - n.z * side.y, n.z * side.x - n.x * side.z,
-                    n.x * side.y - n.y * side.x};
-    // Turned about n by a random angle.
-    Vector turn = on_sphere(random);
-    turn.z = 0;
-    turn = dot(turn, turn) > 1e-6 ? unit(turn) : Vector{1, 0, 0};
-    basis.x = turn.x * side + turn.y * up;
-    basis.y = -turn.y * side + turn.x * up;
-    return basis;
-}
-
-Vector above(Random& random, const Basis& basis)
-{
-    const Vector local = on_sphere(random);
-    return basis(local.x, local.y, std::abs(local.z));
-}
-
-Vector below(Random& random, const Basis& basis)
-{
-    const Vector local = on_sphere(random);
-    return basis(local.x, local.y, -std::abs(local.z));
-}
-
-Vector grazing(Random& random, const Basis& basis)
-{
-    constexpr std::array cosines{0.0, 1e-4, 0x1p-149, 0x1p-126, 0x1p-24, 1e-7};
-    const double cosine = cosines[random.below(cosines.size())];
-    Vector side = on_sphere(random);
-    side.z = 0;
-    side = dot(side, side) > 1e-6 ? unit(side) : Vector{1, 0, 0};
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return basis(sine * side.x, sine * side.y, cosine);
-}
-
-Vector mirrored(const Vector& l, const Vector& h) { return 2 * dot(l, h) * h + -1 * l; }
-
-struct Directional {
-    Basis basis;
-    Vector l, v;
-};
-
-Directional directions(Random& random, Directions which, double alpha)
-{
-    Directional out;
-    out.basis = any_basis(random);
-    const Basis& basis = out.basis;
-    switch (which) {
-    case Directions::anywhere: {
-        const bool up = random.below(8) != 0;
-        out.l = up ? above(random, basis) : on_sphere(random);
-        out.v = up ? above(random, basis) : on_sphere(random);
-        break;
-    }
-    case Directions::equal: out.l = out.v = above(random, basis); break;
-    case Directions::opposed:
-        out.l = above(random, basis);
-        out.v = -1 * out.l;
-        break;
-    case Directions::nearly_opposed: {
-        out.l = above(random, basis);
-        const double angle = random.magnitude(-24, 0);
-        out.v = unit(-1 * out.l + angle * on_sphere(random));
-        break;
-    }
-    case Directions::half_is_normal: {
-        const Vector local = on_sphere(random);
-        out.l = basis(local.x, local.y, std::abs(local.z));
-        out.v = basis(-local.x, -local.y, std::abs(local.z));
-        break;
-    }
-    case Directions::near_peak: {
-        const Vector tilt = on_sphere(random);
-        const double tangent = alpha * (random.coin() ? random.unit() : random.magnitude(-12, 1));
-        const Vector h = unit(basis(tangent * tilt.x, tangent * tilt.y, 1));
-        out.l = above(random, basis);
-        out.v = mirrored(out.l, h);
-        break;
-    }
-    case Directions::along_normal:
-        out.l = basis.z;
-        out.v = above(random, basis);
-        break;
-    case Directions::all_along_normal: out.l = out.v = basis.z; break;
-    case Directions::light_grazing:
-        out.l = grazing(random, basis);
-        out.v = above(random, basis);
-        break;
-    case Directions::view_grazing:
-        out.l = above(random, basis);
-        out.v = grazing(random, basis);
-        break;
-    case Directions::both_grazing:
-        out.l = grazing(random, basis);
-        out.v = grazing(random, basis);
-        break;
-    case Directions::light_below:
-        out.l = below(random, basis);
-        out.v = above(random, basis);
-        break;
-    case Directions::view_below:
-        out.l = above(random, basis);
-        out.v = below(random, basis);
-        break;
-    case Directions::both_below:
-        out.l = below(random, basis);
-        out.v = below(random, basis);
-        break;
-    }
-    return out;
 }
 
 const Vector& vector_of(const Directional& point, ir::GeometryField field)
@@ -340,19 +157,6 @@ std::string describe(const Case& which)
     if (!text.empty() && !values.empty()) text += "; ";
     text += values;
     return text.empty() ? "anywhere" : text;
-}
-
-float to_grid(double value, Precision precision)
-{
-    const Grid& grid = grid_of(precision);
-    if (std::isnan(value)) return std::numeric_limits<float>::quiet_NaN();
-    // Round once, from the double: through float first, halves could round twice.
-    const double step = step_at(value, grid);
-    const double scaled = value / step;  // exact: a power of two
-    double rounded = std::floor(scaled);
-    const double rest = scaled - rounded;
-    if (rest > 0.5 || (rest == 0.5 && std::fmod(rounded, 2) != 0)) rounded += 1;
-    return static_cast<float>(std::clamp(rounded * step, -grid.largest, grid.largest));
 }
 
 Points points(const ir::Module& module, const ir::Function& entry, std::size_t count,

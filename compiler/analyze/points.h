@@ -75,8 +75,4 @@ struct Points {
 Points points(const ir::Module& module, const ir::Function& entry, std::size_t count,
               evaluate::Precision precision = evaluate::Precision::float32);
 
-/// The nearest number of the precision's grid, ties to even, as a float. Overflow becomes the
-/// largest finite one.
-float to_grid(double value, evaluate::Precision precision);
-
 }  // namespace lobe::analyze

@@ -1,4 +1,5 @@
 // Test points keep the promises of their inputs' declarations, and visit what breaks shaders.
+#include "analyze/grid.h"
 #include "analyze/models.h"
 #include "analyze/points.h"
 
@@ -179,6 +180,8 @@ TEST_CASE("the half grid is binary16, rounded once", "[points]")
 {
     CHECK(analyze::to_grid(65504, Precision::float16) == 65504.0F);
     CHECK(analyze::to_grid(1e6, Precision::float16) == 65504.0F);
+    CHECK(analyze::to_grid(-std::numeric_limits<double>::infinity(), Precision::float16) ==
+          -65504.0F);
     CHECK(analyze::to_grid(0x1p-24, Precision::float16) == 0x1p-24F);
     CHECK(analyze::to_grid(0x1.8p-25, Precision::float16) == 0x1p-24F);
     CHECK(analyze::to_grid(0x1p-25, Precision::float16) == 0.0F);      // a tie, to even
