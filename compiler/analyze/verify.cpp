@@ -33,6 +33,7 @@ struct Subject {
     std::size_t taken = 0;     ///< of `rows`
     std::size_t finished = 0;  ///< of `rows`
     std::optional<Reference> reference;
+    const emit::BxdfCheck* bxdf = nullptr;  ///< set: a BxDF's output, with a module of its own
 };
 
 struct File {
@@ -167,7 +168,7 @@ private:
         for (const ir::FunctionId function : checked_functions(module_)) {
             const std::size_t first = subjects_.size();
             for (const emit::Precision precision : options_.precisions)
-                subjects_.push_back({function, precision, {}, {}, 0, 0, {}});
+                subjects_.push_back({function, precision, {}, {}, 0, 0, {}, nullptr});
             for (const emit::Target* target : targets_)
                 for (std::size_t i = first; i < subjects_.size(); ++i) {
                     if (!wants(*target, subjects_[i].precision)) continue;
@@ -179,6 +180,24 @@ private:
                 }
         }
         std::erase_if(subjects_, [](const Subject& subject) { return subject.rows.empty(); });
+        plan_bxdfs();
+    }
+
+    /// The outputs of every BxDF, which exist for one target and in one precision.
+    void plan_bxdfs()
+    {
+        const bool wanted = std::ranges::count(targets_, "ue4", &emit::Target::name) > 0 &&
+                            std::ranges::count(options_.precisions, emit::Precision::float32) > 0;
+        if (!wanted) return;
+        bxdfs_ = emit::bxdf_checks(module_, sources_);
+        for (const emit::BxdfCheck& bxdf : bxdfs_) {
+            subjects_.push_back(
+                {bxdf.function, emit::Precision::float32, {out_.rows.size()}, {}, 0, 0, {}, &bxdf});
+            Row& row = out_.rows.emplace_back();
+            row.term = bxdf.module[bxdf.function].name;
+            row.target = "ue4";
+            row.precision = emit::Precision::float32;
+        }
     }
 
     void work(Schedule& schedule)
@@ -207,8 +226,9 @@ private:
     void prepare(Subject& subject)
     {
         if (!device_) return;
+        const ir::Module& module = subject.bxdf != nullptr ? subject.bxdf->module : module_;
         subject.reference =
-            reference(module_, subject.function, table_of(subject.precision), options_.points);
+            reference(module, subject.function, table_of(subject.precision), options_.points);
         const std::lock_guard lock{mutex_};
         out_.acceptance_seconds += subject.reference->seconds;
         out_.acceptance_points += options_.points;
@@ -219,7 +239,9 @@ private:
         const auto start = Clock::now();
         const emit::Target& target = *emit::find_target(row.target);
         const emit::Harness harness =
-            emit::harness(module_, sources_, subject.function, target, subject.precision);
+            subject.bxdf != nullptr
+                ? subject.bxdf->harness
+                : emit::harness(module_, sources_, subject.function, target, subject.precision);
         Judged judged = judge_harness(harness, target, subject.precision);
         row.judgements = std::move(judged.judgements);
         row.judge_seconds = seconds_since(start);
@@ -247,6 +269,7 @@ private:
     Verification out_;
     std::vector<File> files_;
     std::vector<Subject> subjects_;
+    std::vector<emit::BxdfCheck> bxdfs_;
     std::mutex mutex_;  ///< guards the sums in `out_`
 };
 
