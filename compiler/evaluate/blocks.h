@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace lobe::evaluate {
@@ -19,9 +20,12 @@ template <class Number>
 class Blocks {
 public:
     Blocks(std::size_t inputs, std::size_t slots)
-        : inputs_{inputs}, lanes_(slots * stride), slots_(slots)
+        : inputs_{inputs}, lanes_(slots * stride + 64 / sizeof(Number)), slots_(slots)
     {
-        for (std::size_t i = 0; i < slots; ++i) slots_[i] = lanes_.data() + i * stride;
+        // From a cache line on, so that no vector straddles two.
+        const auto address = reinterpret_cast<std::uintptr_t>(lanes_.data());
+        first_ = lanes_.data() + (64 - address % 64) % 64 / sizeof(Number);
+        for (std::size_t i = 0; i < slots; ++i) slots_[i] = first_ + i * stride;
     }
 
     Number* operator[](std::size_t slot) const { return slots_[slot]; }
@@ -38,7 +42,7 @@ public:
                 slots_[i] = const_cast<Number*>(from);
                 continue;
             }
-            slots_[i] = lanes_.data() + i * stride;
+            slots_[i] = first_ + i * stride;
             std::fill(std::copy_n(from, count, slots_[i]), slots_[i] + block_lanes, from[0]);
         }
     }
@@ -51,12 +55,13 @@ public:
     }
 
 private:
-    // 64 bytes more than the block, so that equal lanes of two slots are never a multiple of
-    // 4 KiB apart: stores would seem to hit the loads that follow.
-    static constexpr std::size_t stride = block_lanes + 64 / sizeof(Number);
+    // Slots follow each other without a gap: lanes of one index are then never just behind each
+    // other modulo 4 KiB, where a load would seem to need the store before it.
+    static constexpr std::size_t stride = block_lanes;
 
     std::size_t inputs_;
     std::vector<Number> lanes_;
+    Number* first_ = nullptr;
     std::vector<Number*> slots_;
 };
 

@@ -5,7 +5,8 @@
 // no fused multiply-add, no libm.
 #pragma once
 
-#include "evaluate/tape.h"
+#include "evaluate/fused.h"
+#include "evaluate/run.h"
 
 #include <array>
 
@@ -20,14 +21,9 @@ template <class Number>
 using Kernel = void (*)(Number* result, const Number* a, const Number* b, const Number* c,
                         const Number* d);
 
-constexpr std::size_t tape_op_count = 0
-#define LOBE_TAPE_OP(name, arity) +1
-#include "evaluate/tape_ops.def"
-#undef LOBE_TAPE_OP
-    ;
-
 template <class Number>
 using KernelTable = std::array<Kernel<Number>, tape_op_count>;
+using FusedTable = std::array<Kernel<float>, fused_op_count>;
 
 /// The instruction sets that this build has kernels for; `baseline` is the compiler's default.
 enum class InstructionSet : std::uint8_t {
@@ -44,6 +40,11 @@ InstructionSet widest();
 /// Only for an available set.
 template <class Number>
 const KernelTable<Number>& kernels(InstructionSet set);
+const FusedTable& fused_kernels(InstructionSet set);
+
+/// `run` on one instruction set, for tests and benchmarks.
+void run_on(InstructionSet set, const Tape& tape, Columns<float> inputs, Results<float> outputs,
+            std::size_t count);
 
 /// One number through the same functions as the double kernels, for the ends of intervals.
 double exp2_one(double x);
@@ -61,14 +62,17 @@ double power_one(double x, double y);
 namespace baseline {
 extern const KernelTable<float> float_kernels;
 extern const KernelTable<double> double_kernels;
+extern const FusedTable fused_kernels;
 }  // namespace baseline
 namespace avx2 {
 extern const KernelTable<float> float_kernels;
 extern const KernelTable<double> double_kernels;
+extern const FusedTable fused_kernels;
 }  // namespace avx2
 namespace avx512 {
 extern const KernelTable<float> float_kernels;
 extern const KernelTable<double> double_kernels;
+extern const FusedTable fused_kernels;
 }  // namespace avx512
 
 }  // namespace lobe::evaluate

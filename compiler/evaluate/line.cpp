@@ -106,7 +106,8 @@ Value Scalarizer::emit(TapeOp op, Value a, Value b, Value c, Value d)
 {
     // IEEE addition and multiplication commute, so their operands have one order.
     if ((op == TapeOp::add || op == TapeOp::multiply) && a > b) std::swap(a, b);
-    return intern({Step::Kind::operation, op, 0, {a, b, c, d}});
+    return intern(
+        {Step::Kind::operation, op, static_cast<std::uint8_t>(arity(op)), 0, {a, b, c, d}});
 }
 
 Value Scalarizer::constant(const ir::Literal& literal)
@@ -114,7 +115,7 @@ Value Scalarizer::constant(const ir::Literal& literal)
     const auto [found, added] =
         constants_.try_emplace(literal.text, static_cast<std::uint32_t>(line_.constants.size()));
     if (added) line_.constants.push_back(literal);
-    return intern({Step::Kind::constant, {}, found->second, {}});
+    return intern({Step::Kind::constant, {}, 0, found->second, {}});
 }
 
 Value Scalarizer::number(int value)
@@ -344,7 +345,7 @@ Line Scalarizer::run()
             const auto index = static_cast<std::uint32_t>(line_.inputs.size());
             line_.inputs.push_back(
                 {input.name + component_suffix(input.type, input.quantity, k), i, k});
-            scalars_of_input.push_back(intern({Step::Kind::input, {}, index, {}}));
+            scalars_of_input.push_back(intern({Step::Kind::input, {}, 0, index, {}}));
         }
         arguments.push_back(std::move(scalars_of_input));
     }

@@ -21,14 +21,11 @@ struct Step {
     };
     Kind kind{};
     TapeOp op{};              ///< of an operation
+    std::uint8_t count = 0;   ///< of operands
     std::uint32_t index = 0;  ///< of an input or constant
     std::array<Value, 4> operands{};
 
-    std::span<const Value> arguments() const
-    {
-        return std::span{operands}.first(
-            kind == Kind::operation ? static_cast<std::size_t>(arity(op)) : 0);
-    }
+    std::span<const Value> arguments() const { return std::span{operands}.first(count); }
     friend bool operator==(const Step&, const Step&) = default;
 };
 

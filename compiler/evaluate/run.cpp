@@ -5,44 +5,52 @@
 #include "evaluate/literals.h"
 
 #include <cassert>
-#include <type_traits>
 
 namespace lobe::evaluate {
 namespace {
 
-template <class Number>
-void run_blocks(const Tape& tape, const KernelTable<Number>& table, Columns<Number> inputs,
-                Results<Number> outputs, std::size_t count)
+double to_number(const ir::Literal& literal, double) { return to_double(literal); }
+float to_number(const ir::Literal& literal, float) { return to_float(literal); }
+
+/// Runs `code`, the tape's or its fused twin, with `table`'s kernels.
+template <class Number, class Code, class Table>
+void run_blocks(const Tape& tape, const Code& code, const std::vector<Slot>& results, Slot slots,
+                const Table& table, Columns<Number> inputs, Results<Number> outputs,
+                std::size_t count)
 {
     assert(inputs.size() == tape.inputs.size() && outputs.size() == tape.outputs.size());
-    Blocks<Number> blocks{tape.inputs.size(), tape.slots};
-    for (const Constant& constant : tape.constants) {
-        if constexpr (std::is_same_v<Number, float>)
-            blocks.fill(constant.slot, to_float(constant.literal));
-        else
-            blocks.fill(constant.slot, to_double(constant.literal));
-    }
+    Blocks<Number> blocks{tape.inputs.size(), slots};
+    for (const Constant& constant : tape.constants)
+        blocks.fill(constant.slot, to_number(constant.literal, Number{}));
     for (std::size_t begin = 0; begin < count; begin += block_lanes) {
         const std::size_t size = std::min(block_lanes, count - begin);
         blocks.enter(inputs, begin, size);
-        for (const Instruction& step : tape.code)
+        for (const auto& step : code)
             table[static_cast<std::size_t>(step.op)](blocks[step.result], blocks[step.a],
                                                      blocks[step.b], blocks[step.c],
                                                      blocks[step.d]);
-        blocks.leave(tape.outputs, outputs, begin, size);
+        blocks.leave(results, outputs, begin, size);
     }
 }
 
 }  // namespace
 
+void run_on(InstructionSet set, const Tape& tape, Columns<float> inputs, Results<float> outputs,
+            std::size_t count)
+{
+    run_blocks(tape, tape.fused.code, tape.fused.outputs, tape.fused.slots, fused_kernels(set),
+               inputs, outputs, count);
+}
+
 void run(const Tape& tape, Columns<float> inputs, Results<float> outputs, std::size_t count)
 {
-    run_blocks(tape, kernels<float>(widest()), inputs, outputs, count);
+    run_on(widest(), tape, inputs, outputs, count);
 }
 
 void run(const Tape& tape, Columns<double> inputs, Results<double> outputs, std::size_t count)
 {
-    run_blocks(tape, kernels<double>(widest()), inputs, outputs, count);
+    run_blocks(tape, tape.code, tape.outputs, tape.slots, kernels<double>(widest()), inputs,
+               outputs, count);
 }
 
 }  // namespace lobe::evaluate

@@ -1,5 +1,6 @@
 #include "evaluate/tape.h"
 
+#include "evaluate/fuse.h"
 #include "evaluate/line.h"
 #include "evaluate/slots.h"
 
@@ -21,6 +22,14 @@ constexpr std::array op_entries{
 #undef LOBE_TAPE_OP
 };
 
+std::array<Slot, 4> operand_slots(const Step& step, const Slots& slots)
+{
+    std::array<Slot, 4> operands{};
+    for (std::size_t i = 0; i < step.arguments().size(); ++i)
+        operands[i] = slots.of[step.operands[i]];
+    return operands;
+}
+
 Tape write_tape(const Line& line, const Slots& slots)
 {
     Tape tape;
@@ -32,15 +41,29 @@ Tape write_tape(const Line& line, const Slots& slots)
         if (step.kind == Step::Kind::constant)
             tape.constants.push_back({slots.of[value], line.constants[step.index]});
         if (step.kind != Step::Kind::operation) continue;
-        std::array<Slot, 4> operands{};
-        for (std::size_t i = 0; i < step.arguments().size(); ++i)
-            operands[i] = slots.of[step.operands[i]];
+        const std::array<Slot, 4> operands = operand_slots(step, slots);
         tape.code.push_back(
             {step.op, slots.of[value], operands[0], operands[1], operands[2], operands[3]});
     }
     for (const Value output : line.outputs) tape.outputs.push_back(slots.of[output]);
     tape.slots = slots.count;
     return tape;
+}
+
+FusedCode write_fused(const FusedLine& fused)
+{
+    const Slots slots = assign_slots(fused.line, Reuse::yes);
+    FusedCode result;
+    for (Value value = 0; value < fused.line.steps.size(); ++value) {
+        const Step& step = fused.line.steps[value];
+        if (step.kind != Step::Kind::operation || !slots.live[value]) continue;
+        const std::array<Slot, 4> operands = operand_slots(step, slots);
+        result.code.push_back({fused.ops[value], slots.of[value], operands[0], operands[1],
+                               operands[2], operands[3]});
+    }
+    for (const Value output : fused.line.outputs) result.outputs.push_back(slots.of[output]);
+    result.slots = slots.count;
+    return result;
 }
 
 }  // namespace
@@ -51,7 +74,9 @@ std::string_view name(TapeOp op) { return op_entries[static_cast<std::size_t>(op
 Tape compile(const ir::Module& module, const ir::Function& function)
 {
     const Line line = scalarize(module, function, Trace::live);
-    return write_tape(line, assign_slots(line, Reuse::yes));
+    Tape tape = write_tape(line, assign_slots(line, Reuse::yes));
+    tape.fused = write_fused(fuse(line));
+    return tape;
 }
 
 Traced compile_traced(const ir::Module& module, const ir::Function& function)

@@ -33,6 +33,23 @@ struct Instruction {
     Slot d = 0;
 };
 
+/// An instruction of the float kernels, which join neighbors; see fused.h.
+struct FusedInstruction {
+    std::uint16_t op = 0;  ///< FusedOp
+    Slot result = 0;
+    Slot a = 0;
+    Slot b = 0;
+    Slot c = 0;
+    Slot d = 0;
+};
+
+/// The same function as the code beside it, with the same inputs and constants in the same slots.
+struct FusedCode {
+    std::vector<FusedInstruction> code;
+    std::vector<Slot> outputs;
+    Slot slots = 0;
+};
+
 struct Constant {
     Slot slot = 0;
     ir::Literal literal;
@@ -53,6 +70,7 @@ struct Tape {
     std::vector<Slot> outputs;              ///< slots of the result's components
     std::vector<std::string> output_names;  ///< `D_GGX`, or `c1.r`, `c1.g`, `c1.b`
     Slot slots = 0;
+    FusedCode fused;  ///< for float; empty on a traced tape
 };
 
 /// The tape of a function of the module, or of an entry point into it. A boolean result is

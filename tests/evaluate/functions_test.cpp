@@ -90,8 +90,8 @@ struct Claim {
 
 // ORDER docs/numerics.md, "The functions of float and double"
 const Claim claims[] = {
-    {Op::exp2, -149, 127.99, 1.25, 1.5}, {Op::log2, 1e-44, 3e38, 1.25, 1},
-    {Op::log2, 0.5, 2, 1.25, 1},         {Op::exp, -87, 88.7, 0.51, 1.5},
+    {Op::exp2, -149, 127.99, 1.25, 1.5}, {Op::log2, 1e-44, 3e38, 1.6, 1},
+    {Op::log2, 0.5, 2, 1.6, 1},          {Op::exp, -87, 88.7, 0.51, 1.5},
     {Op::log, 1e-44, 3e38, 0.51, 1},     {Op::log, 0.5, 2, 0.51, 1},
     {Op::sine, -1e6, 1e6, 0.51, 1},      {Op::cosine, -1e6, 1e6, 0.51, 1},
     {Op::sine, -4, 4, 0.51, 1},          {Op::cosine, -4, 4, 0.51, 1},
@@ -142,9 +142,9 @@ TEST_CASE("a power is accurate where its exponent is large")
         const double allowed_wide = 2 + std::abs(exponent) * std::log(2.0) / 4;
         worst_wide = std::max(worst_wide, error_in_units(wide[i][0], truth[i][0]) / allowed_wide);
         if (exponent < -120 || points[i][0] == 0.9) continue;  // 0.9 is not the float
-        // log2 is off by 1.25 units and the product by half of one, each 2^-23 relative at most;
+        // log2 is off by 1.6 units and the product by half of one, each 2^-23 relative at most;
         // 2^e turns an error d of e into d ln 2, that is 2 ln 2 units of 2^-24 for each.
-        const double allowed = 1.25 + std::abs(exponent) * 1.75 * 2 * std::log(2.0);
+        const double allowed = 1.25 + std::abs(exponent) * 2.1 * 2 * std::log(2.0);
         worst_narrow = std::max(worst_narrow, error_in_units(narrow[i][0], truth[i][0]) / allowed);
     }
     CHECK(worst_wide <= 1);
