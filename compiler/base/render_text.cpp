@@ -15,6 +15,8 @@ namespace {
 constexpr int widest = 140;
 /// Columns kept before the first mark of a cut line.
 constexpr int context = 30;
+/// Lines of more bytes are cut to about as many before their columns are counted.
+constexpr std::size_t longest = 4096;
 
 enum class Ink {
     plain,
@@ -38,14 +40,36 @@ std::string_view escape(Ink ink)
     return "";
 }
 
-/// A label, or one line's part of it, in columns of its line.
+/// A label, or one line's part of it, in bytes of the line.
 struct Mark {
-    int begin = 0;
-    int end = 0;
-    char stroke = '^';
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    char stroke = '^';  ///< 0 marks nothing, but is where to look
     Ink ink = Ink::plain;
     std::string text;
 };
+
+/// A mark where it is drawn.
+struct Stroke {
+    int begin = 0;
+    int end = 0;
+    const Mark* mark = nullptr;
+};
+
+/// The part of a very long line around its last mark, which is the primary one where there is one.
+struct Part {
+    std::size_t begin = 0;
+    std::string_view text;
+};
+
+Part part_around(std::string_view line, const Mark& mark)
+{
+    if (line.size() <= longest) return {0, line};
+    std::size_t begin = std::min(mark.begin, line.size());
+    begin -= std::min(begin, longest / 2);
+    while (begin > 0 && (static_cast<unsigned char>(line[begin]) & 0xC0) == 0x80) --begin;
+    return {begin, line.substr(begin, longest)};
+}
 
 /// One row below a source line: characters with their inks.
 class Row {
@@ -207,49 +231,56 @@ private:
         const Source& source = source_of(label.span);
         const int first = source.position(label.span.begin).line;
         const int last = std::max(first, last_line(label.span));
-        const auto column = [&](int line, std::uint32_t offset) {
-            return SourceView{source.line(line)}.column(offset - source.line_start(line));
-        };
+        const std::size_t begin = label.span.begin - source.line_start(first);
+        const std::size_t end = label.span.end - source.line_start(last);
         if (first == last) {
-            const int begin = column(first, label.span.begin);
-            const int end = std::max(begin + 1, column(first, label.span.end));
             marks[first].push_back({begin, end, stroke, ink, label.text});
             return;
         }
-        const SourceView view{source.line(first)};
-        const int begin = view.column(label.span.begin - source.line_start(first));
-        marks[first].push_back({begin, std::max(begin + 1, view.width()), stroke, ink, ""});
-        const std::string_view text = source.line(last);
-        const std::size_t indent = std::min(text.find_first_not_of(" \t"), text.size());
-        const int start = SourceView{text}.column(indent);
-        const int end = std::max(start + 1, column(last, label.span.end));
-        marks[last].push_back({start, end, stroke, ink, label.text});
+        marks[first].push_back({begin, source.line(first).size(), stroke, ink, ""});
+        const std::size_t indent = source.line(last).find_first_not_of(" \t");
+        marks[last].push_back({std::min(indent, end), end, stroke, ink, label.text});
     }
 
-    void draw_line(int number, std::string_view text, std::vector<Mark> marks)
+    void draw_line(int number, std::string_view text, const std::vector<Mark>& marks)
     {
-        const SourceView view{text};
-        const auto [first, last] = window(view, marks);
+        const Part part = part_around(text, marks.back());
+        const SourceView view{part.text};
+        std::vector<Stroke> strokes;
+        for (const Mark& mark : marks) {
+            const int begin = view.column(mark.begin - std::min(mark.begin, part.begin));
+            const int end = view.column(mark.end - std::min(mark.end, part.begin));
+            strokes.push_back({begin, std::max(end, begin + 1), &mark});
+        }
+        const auto [first, last] = window(view, strokes);
         row(std::to_string(number), view.window(first, last));
         const int shift = SourceView::shift(first);
-        for (Mark& mark : marks) {
-            mark.begin = std::clamp(mark.begin, first, last) - shift;
-            mark.end = std::max(std::clamp(mark.end, first, last) - shift, mark.begin + 1);
+        for (Stroke& stroke : strokes) {
+            // What was cut off is where the dots are.
+            if (stroke.end <= first) stroke = {shift, shift + SourceView::ellipsis, stroke.mark};
+            if (stroke.begin >= last)
+                stroke = {last, last + SourceView::ellipsis, stroke.mark};
+            else if (stroke.end > last)
+                stroke.end = last;
+            stroke.begin = std::max(stroke.begin, shift) - shift;
+            stroke.end = std::max(stroke.end - shift, stroke.begin + 1);
         }
-        draw_marks(std::move(marks));
+        std::erase_if(strokes, [](const Stroke& stroke) { return stroke.mark->stroke == 0; });
+        if (!strokes.empty()) draw_strokes(std::move(strokes));
     }
 
-    /// Which columns of a line to show: all, or those around the last mark, which is the primary
-    /// one where there is one.
-    static std::pair<int, int> window(const SourceView& view, const std::vector<Mark>& marks)
+    /// Which columns of a line to show: all, or those around the last mark.
+    static std::pair<int, int> window(const SourceView& view, const std::vector<Stroke>& strokes)
     {
         if (view.width() <= widest) return {0, view.width() + 1};
-        int begin = marks.back().begin;
-        int end = std::min(marks.back().end, begin + widest - context);
-        for (const Mark& mark : marks) {
-            if (std::max(end, mark.end) - std::min(begin, mark.begin) > widest - context) continue;
-            begin = std::min(begin, mark.begin);
-            end = std::max(end, mark.end);
+        int begin = strokes.back().begin;
+        int end = std::min(strokes.back().end, begin + widest - context);
+        for (const Stroke& stroke : strokes) {
+            const int from = std::min(begin, stroke.begin);
+            const int to = std::max(end, stroke.end);
+            if (to - from > widest - context) continue;
+            begin = from;
+            end = to;
         }
         const int first = begin <= context ? 0 : begin - context;
         return {first, first + widest};
@@ -257,30 +288,32 @@ private:
 
     /// Underlines all marks; the text of the rightmost stands beside it, the others' texts hang
     /// below, from right to left.
-    void draw_marks(std::vector<Mark> marks)
+    void draw_strokes(std::vector<Stroke> strokes)
     {
-        Row strokes;
-        for (const Mark& mark : marks)
-            for (int column = mark.begin; column < mark.end; ++column)
-                strokes.put(column, mark.stroke, mark.ink);
+        Row underline;
+        for (const Stroke& stroke : strokes)
+            for (int column = stroke.begin; column < stroke.end; ++column)
+                underline.put(column, stroke.mark->stroke, stroke.mark->ink);
 
-        std::stable_sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) {
+        std::stable_sort(strokes.begin(), strokes.end(), [](const Stroke& a, const Stroke& b) {
             return a.end != b.end ? a.end < b.end : a.begin < b.begin;
         });
-        if (!marks.back().text.empty())
-            strokes.put(strokes.size() + 1, marks.back().text, marks.back().ink);
-        row("", strokes.text(color_));
+        const Mark& rightmost = *strokes.back().mark;
+        if (!rightmost.text.empty())
+            underline.put(underline.size() + 1, rightmost.text, rightmost.ink);
+        row("", underline.text(color_));
 
-        marks.pop_back();
-        std::erase_if(marks, [](const Mark& mark) { return mark.text.empty(); });
-        std::stable_sort(marks.begin(), marks.end(),
-                         [](const Mark& a, const Mark& b) { return a.begin < b.begin; });
-        for (bool bars_only = true; !marks.empty(); bars_only = false) {
+        strokes.pop_back();
+        std::erase_if(strokes, [](const Stroke& stroke) { return stroke.mark->text.empty(); });
+        std::stable_sort(strokes.begin(), strokes.end(),
+                         [](const Stroke& a, const Stroke& b) { return a.begin < b.begin; });
+        for (bool bars_only = true; !strokes.empty(); bars_only = false) {
             Row hanging;
-            for (const Mark& mark : marks) hanging.put(mark.begin, '|', mark.ink);
+            for (const Stroke& stroke : strokes) hanging.put(stroke.begin, '|', stroke.mark->ink);
             if (!bars_only) {
-                hanging.put(marks.back().begin, marks.back().text, marks.back().ink);
-                marks.pop_back();
+                const Stroke& last = strokes.back();
+                hanging.put(last.begin, last.mark->text, last.mark->ink);
+                strokes.pop_back();
             }
             row("", hanging.text(color_));
         }
@@ -320,23 +353,12 @@ private:
             const std::size_t end = rest.find('\n');
             const bool ends = end == std::string_view::npos;
             const std::string_view written = rest.substr(0, end);
-            const std::string before{number == first ? head : std::string_view{}};
+            const std::string_view before = number == first ? head : std::string_view{};
             const std::string line =
                 fmt::format("{}{}{}", before, written, ends ? tail : std::string_view{});
-            std::vector<Mark> marks;
-            const SourceView view{line};
-            const int begin = view.column(before.size());
-            marks.push_back(
-                {begin, view.column(before.size() + written.size()), '~', Ink::fix, ""});
-            const auto [from, to] = window(view, marks);
-            row(std::to_string(number), view.window(from, to));
-            if (!written.empty()) {
-                Row strokes;
-                const int shift = SourceView::shift(from);
-                for (int column = marks[0].begin; column < std::min(marks[0].end, to); ++column)
-                    strokes.put(column - shift, '~', Ink::fix);
-                row("", strokes.text(color_));
-            }
+            const char stroke = written.empty() ? '\0' : '~';
+            draw_line(number, line,
+                      {{before.size(), before.size() + written.size(), stroke, Ink::fix, ""}});
             if (ends) return;
             rest.remove_prefix(end + 1);
         }

@@ -84,6 +84,11 @@ Parser::Parser(const Source& source, std::uint32_t index, Diagnostics& diagnosti
     : source_(source), index_(index), diagnostics_(diagnostics), tokens_(lex(source.text(), index))
 {
     tree_.source = index;
+    // Each expression takes a token at least; growing in steps would need up to three times the
+    // memory for a moment. What is not used is never touched.
+    tree_.expressions.reserve(tokens_.all.size());
+    heights_.reserve(tokens_.all.size());
+    outer_.reserve(tokens_.all.size());
 }
 
 Tree Parser::run()
@@ -127,7 +132,7 @@ void Parser::report_problems(std::uint32_t before)
     for (; next_problem_ < tokens_.problems.size(); ++next_problem_) {
         const Problem& problem = tokens_.problems[next_problem_];
         if (problem.begin >= before) return;
-        if (!skipping_) report(describe(problem, source_.text(), index_));
+        if (!skipping_ && errors_ < most_errors) report(describe(problem, source_.text(), index_));
     }
 }
 

@@ -146,6 +146,27 @@ TEST_CASE("lines that are too wide are cut around what is marked")
                      std::string(140, 'a') + "...\n  | " + std::string(140, '^') + "\n");
 }
 
+TEST_CASE("lines of any length are drawn alike")
+{
+    const std::string before = " 3456789\u00E4";  // 10 bytes, 9 characters
+    std::string line;
+    for (int i = 0; i < 5000; ++i) line += before;
+    Stage stage{line + "bad" + line};
+    Diagnostic diagnostic = error({stage.at("bad"), "here"});
+    diagnostic.secondary = {{{0, 0, 1}, "far away"}};
+    diagnostic.fix = Fix{stage.at("bad"), "good", "mend"};
+    const std::string left = "...89\u00E4" + before + before + before;
+    const std::string drawn = stage.draw(diagnostic);
+    CAPTURE(drawn);
+    CHECK(drawn.find(left + "bad" + before) != std::string::npos);
+    CHECK(drawn.find(left + "good" + before) != std::string::npos);
+    CHECK(drawn.find("^^^ here\n  | |\n  | far away\n") != std::string::npos);
+    CHECK(drawn.find("~~~~\n") != std::string::npos);
+    std::size_t at = 0;
+    for (std::size_t end = 0; (end = drawn.find('\n', at)) != std::string::npos; at = end + 1)
+        CHECK(end - at < 200);
+}
+
 TEST_CASE("a place at the end of the file can be marked")
 {
     Stage ended{"one\n"};
