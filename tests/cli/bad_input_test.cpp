@@ -1,5 +1,6 @@
 // Every kind of broken input gets one clear message, the right exit code, and leaves nothing.
 #include "command.h"
+#include "lobe/lobe.h"
 
 #include <catch2/catch.hpp>
 
@@ -160,4 +161,15 @@ TEST_CASE("usage errors exit with 2 and name what was wrong")
         CHECK(outcome.status == 2);
         CHECK_FALSE(outcome.err.empty());
     }
+}
+
+TEST_CASE("a target that is not known")
+{
+    const lobe::Result result =
+        lobe::compile({"good.lobe", "module good\n" + term}, {}, {.targets = {"ue5"}});
+    REQUIRE(result.messages.size() == 1);
+    CHECK(result.messages[0].code == "E0702");
+    CHECK_THAT(result.messages[0].text, Contains("ue5"));
+    CHECK_FALSE(result.ok());
+    CHECK(result.files.empty());
 }
