@@ -35,7 +35,7 @@ std::string function_name(const Dialect& dialect, const ir::Module& module,
 std::string end_text(double value)
 {
     if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
-    return fmt::format("{:.7g}", value);
+    return fmt::format("{}", value);
 }
 
 }  // namespace
@@ -170,8 +170,9 @@ std::vector<Record> Listing::comment(const ir::Function& function,
         ranges += fmt::format("{}{} in {}", ranges.empty() ? "Expects " : ", ", inputs[i], range);
     }
     if (!ranges.empty()) ranges += ". ";
-    const std::string range = range_text(function.range);
-    if (!range.empty()) ranges += fmt::format("Returns {}.", range);
+    // What was declared is a promise; what was only inferred can change with the next edit.
+    if (function.declared_range)
+        ranges += fmt::format("Returns {}.", range_text(*function.declared_range));
     add(ranges);
     text.push_back(cite(function.span));
     return lines(text);

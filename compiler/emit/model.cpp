@@ -71,7 +71,8 @@ std::vector<Record> member_records(const ir::Module& module, const Dialect& dial
             parameter ? module.parameters[input.which].doc
                       : std::string{ir::facts(static_cast<ir::SurfaceField>(input.which)).doc};
         if (doc.empty()) doc = input.name;
-        const std::string range = range_text(input.range);
+        const bool flag = input.type == ir::Type::boolean;
+        const std::string range = flag ? std::string{} : range_text(input.range);
         if (!range.empty()) doc += (doc.ends_with('.') ? " " : "; ") + range;
 
         Record record{{{"type", std::string{dialect.type(input.type)}}, {"name", member.name}},

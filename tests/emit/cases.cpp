@@ -95,6 +95,62 @@ Builder wide()
     return b;
 }
 
+/// A model whose output reads everything that a host gives: the tangent frame, the half vector, a
+/// boolean and a pair as parameters.
+Builder everything()
+{
+    Builder b{"cloth"};
+    b.module.parameters.push_back({"is_wet",
+                                   Type::boolean,
+                                   ir::Quantity::boolean,
+                                   {0, 1},
+                                   {1},
+                                   "",
+                                   "",
+                                   "Wet.",
+                                   "cloth",
+                                   b.line(3)});
+    b.module.parameters.push_back({"weave",
+                                   Type::vec2,
+                                   ir::Quantity::vector,
+                                   {0, 1},
+                                   {0.25, 1},
+                                   "",
+                                   "",
+                                   "Density of threads.",
+                                   "cloth",
+                                   b.line(4)});
+    ir::Function& f = b.term("cloth_specular", 9);
+    f.kind = ir::Function::Kind::output;
+    ir::Graph& g = f.graph;
+    ExprId sum = g.literal("0");
+    for (int i = 0; i <= static_cast<int>(ir::GeometryField::one_minus_cos_d); ++i) {
+        const ExprId value = field(f, static_cast<ir::GeometryField>(i));
+        const bool vector = g[value].type == Type::vec3;
+        sum = g.apply(Op::add, {sum, vector ? g.component(value, i % 3) : value});
+    }
+    for (int i = 0; i <= static_cast<int>(ir::SurfaceField::f0); ++i) {
+        if (static_cast<ir::SurfaceField>(i) == ir::SurfaceField::alpha) continue;
+        const ExprId value = field(f, static_cast<ir::SurfaceField>(i));
+        const bool vector = g[value].type == Type::vec3;
+        sum = g.apply(Op::add, {sum, vector ? g.component(value, i % 3) : value});
+    }
+    const ExprId wet = parameter(b.module, f, 0);
+    const ExprId weave = g.apply(Op::length, {parameter(b.module, f, 1)});
+    f.result = g.apply(Op::select, {wet, g.apply(Op::multiply, {sum, weave}), g.literal("0")});
+    ir::Function& coat = b.term("cloth_coat", 11);
+    coat.kind = ir::Function::Kind::output;
+    coat.quantity = ir::Quantity::color;
+    coat.result = coat.graph.apply(Op::multiply, {field(coat, ir::SurfaceField::base_color),
+                                                  field(coat, ir::GeometryField::cos_i)});
+    b.module.models.push_back({"thread",
+                               "",
+                               "cloth",
+                               b.line(8),
+                               {{"specular", ir::FunctionId{0}}, {"coat", ir::FunctionId{1}}}});
+    return b;
+}
+
 /// A model with one parameter, one term and one output.
 Builder model()
 {
@@ -155,6 +211,7 @@ const std::vector<GoldenCase>& golden_cases()
         {"wide", "hlsl", wide},
         {"model", "glsl450", model},
         {"model", "ue4", model},
+        {"everything", "ue4", everything},
     };
     return cases;
 }

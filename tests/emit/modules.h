@@ -105,7 +105,7 @@ inline Builder ggx()
     d.doc = "Trowbridge-Reitz normal distribution, per steradian.";
     d.citations = {{"Walter07", "eq 33"}};
     d.formula = "alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)";
-    d.range = {0, Builder::infinity};
+    d.declared_range = ir::Range{0, Builder::infinity};
     const ir::ExprId alpha = argument(d, "alpha", ir::Type::scalar, {0.000244140625, 1});
     const ir::ExprId sin2 = field(d, ir::GeometryField::sin2_h);
     ir::Graph& g = d.graph;

@@ -139,7 +139,7 @@ vec3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
 // Schlick94 eq 15: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = let r = falloff_scale(specular_fresnel_falloff); f0 + saturate(2 - r) * (1 - f0) * (1 -
 // cos_d)^(5 * r)
-// Expects f0 in [0, 1], one_minus_cos_d in [0, 1]. Returns [0, 1].
+// Expects f0 in [0, 1], one_minus_cos_d in [0, 1].
 // models/callisto.lobe:115
 vec3 F_Callisto(vec3 f0, float one_minus_cos_d, float specular_fresnel_falloff)
 {
@@ -158,7 +158,7 @@ vec3 F_Callisto(vec3 f0, float one_minus_cos_d, float specular_fresnel_falloff)
 // = let roughening = alpha * (1 - sqrt(max(-g.v_dot_l, 0))); let brightness = g.cos_i * (1 - 0.55
 // * roughening) + 0.19 * roughening; if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi *
 // brightness else 0
-// Expects diffuse_color in [0, 1], alpha in [0.0002441406, 1]. Returns [0, 0.3787888].
+// Expects diffuse_color in [0, 1], alpha in [0.000244140625, 1]. Returns [0, 0.4].
 // models/callisto.lobe:127
 vec3 proxima_cos(vec3 diffuse_color, float alpha, float NoL, float NoV, float VoL)
 {
@@ -171,7 +171,7 @@ vec3 proxima_cos(vec3 diffuse_color, float alpha, float NoL, float NoV, float Vo
 // Lambert60: Lambert 1760, Photometria
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
-// Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
+// Expects diffuse_color in [0, 1].
 // models/microfacet.lobe:251
 vec3 Diffuse_Lambert(vec3 diffuse_color)
 {
@@ -181,7 +181,7 @@ vec3 Diffuse_Lambert(vec3 diffuse_color)
 // Lambert's diffuse times n.l, gated like Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = if g.cos_i > 0 and g.cos_o > 0 then Diffuse_Lambert(diffuse_color) * g.cos_i else 0
-// Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
+// Expects diffuse_color in [0, 1].
 // models/callisto.lobe:140
 vec3 lambert_cos(vec3 diffuse_color, float NoL, float NoV)
 {
@@ -192,7 +192,7 @@ vec3 lambert_cos(vec3 diffuse_color, float NoL, float NoV)
 // Walter07 eq 33: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // Karis13 eq 3: Karis 2013, Real Shading in Unreal Engine 4
 // = alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)
-// Expects alpha in [0.0002441406, 1]. Returns [1.897275e-08, 5340354].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:46
 float D_GGX(float alpha, float NxH2)
 {
@@ -205,7 +205,7 @@ float D_GGX(float alpha, float NxH2)
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = let i = g.cos_i + sqrt(alpha^2 + (1 - alpha^2) * g.cos_i^2); let o = g.cos_o + sqrt(alpha^2 +
 // (1 - alpha^2) * g.cos_o^2); 1 / (i * o)
-// Expects alpha in [0.0002441406, 1]. Returns [0.2319103, 1.677722e+07].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:182
 float V_SmithGGX(float alpha, float NoL, float NoV)
 {
@@ -219,7 +219,7 @@ float V_SmithGGX(float alpha, float NoL, float NoV)
 // One specular lobe's D V.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = D_GGX(roughness^2, g) * V_SmithGGX(roughness^2, g)
-// Expects roughness in [0.015625, 1]. Returns [4.743187e-09, 8.959627e+13].
+// Expects roughness in [0.015625, 1].
 // models/callisto.lobe:147
 float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 {
@@ -234,7 +234,7 @@ float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 // slides 98: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = let second = min(roughness * dual_specular_roughness_scale, 1); lerp(lobe_ggx(roughness, g),
 // lobe_ggx(second, g), dual_specular_opacity)
-// Expects roughness in [0.015625, 1]. Returns [4.743187e-09, 8.959627e+13].
+// Expects roughness in [0.015625, 1].
 // models/callisto.lobe:155
 float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
     float dual_specular_roughness_scale, float dual_specular_opacity)
@@ -249,7 +249,7 @@ float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = if g.cos_i > 0 and g.cos_o > 0 then dual_ggx(roughness, g) * F_Callisto(f0, g.cos_d) * g.cos_i
 // else 0
-// Expects f0 in [0, 1], roughness in [0.015625, 1]. Returns [0, 4.479813e+13].
+// Expects f0 in [0, 1], roughness in [0.015625, 1].
 // models/callisto.lobe:163
 vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, float OneMinusVoH,
     float specular_fresnel_falloff, float dual_specular_roughness_scale,
@@ -264,7 +264,6 @@ vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, fl
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * proxima_cos(s.diffuse_color, s.alpha, g) * c2(g)
-// Returns [0, 49648.6].
 // models/callisto.lobe:181
 vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, float OneMinusNoH,
     float OneMinusVoH, float roughness, vec3 diffuse_color, float diffuse_fresnel,
@@ -285,7 +284,6 @@ vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, flo
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
-// Returns [0, 8.959627e+13].
 // models/callisto.lobe:182
 vec3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusNoH,
     float OneMinusVoH, float roughness, vec3 f0, float smooth_terminator,
@@ -304,7 +302,6 @@ vec3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, f
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * lambert_cos(s.diffuse_color, g) * c2(g)
-// Returns [0, 41721.51].
 // models/callisto.lobe:189
 vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float OneMinusNoH,
     float OneMinusVoH, vec3 diffuse_color, float diffuse_fresnel, float diffuse_fresnel_falloff,
@@ -325,7 +322,6 @@ vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float 
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
-// Returns [0, 8.959627e+13].
 // models/callisto.lobe:190
 vec3 callisto_lambert_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
     float OneMinusNoH, float OneMinusVoH, float roughness, vec3 f0, float smooth_terminator,

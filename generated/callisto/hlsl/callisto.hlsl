@@ -141,7 +141,7 @@ float3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
 // Schlick94 eq 15: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = let r = falloff_scale(specular_fresnel_falloff); f0 + saturate(2 - r) * (1 - f0) * (1 -
 // cos_d)^(5 * r)
-// Expects f0 in [0, 1], one_minus_cos_d in [0, 1]. Returns [0, 1].
+// Expects f0 in [0, 1], one_minus_cos_d in [0, 1].
 // models/callisto.lobe:115
 float3 F_Callisto(float3 f0, float one_minus_cos_d, float specular_fresnel_falloff)
 {
@@ -160,7 +160,7 @@ float3 F_Callisto(float3 f0, float one_minus_cos_d, float specular_fresnel_fallo
 // = let roughening = alpha * (1 - sqrt(max(-g.v_dot_l, 0))); let brightness = g.cos_i * (1 - 0.55
 // * roughening) + 0.19 * roughening; if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi *
 // brightness else 0
-// Expects diffuse_color in [0, 1], alpha in [0.0002441406, 1]. Returns [0, 0.3787888].
+// Expects diffuse_color in [0, 1], alpha in [0.000244140625, 1]. Returns [0, 0.4].
 // models/callisto.lobe:127
 float3 proxima_cos(float3 diffuse_color, float alpha, float NoL, float NoV, float VoL)
 {
@@ -174,7 +174,7 @@ float3 proxima_cos(float3 diffuse_color, float alpha, float NoL, float NoV, floa
 // Lambert60: Lambert 1760, Photometria
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
-// Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
+// Expects diffuse_color in [0, 1].
 // models/microfacet.lobe:251
 float3 Diffuse_Lambert(float3 diffuse_color)
 {
@@ -184,7 +184,7 @@ float3 Diffuse_Lambert(float3 diffuse_color)
 // Lambert's diffuse times n.l, gated like Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = if g.cos_i > 0 and g.cos_o > 0 then Diffuse_Lambert(diffuse_color) * g.cos_i else 0
-// Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
+// Expects diffuse_color in [0, 1].
 // models/callisto.lobe:140
 float3 lambert_cos(float3 diffuse_color, float NoL, float NoV)
 {
@@ -195,7 +195,7 @@ float3 lambert_cos(float3 diffuse_color, float NoL, float NoV)
 // Walter07 eq 33: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // Karis13 eq 3: Karis 2013, Real Shading in Unreal Engine 4
 // = alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)
-// Expects alpha in [0.0002441406, 1]. Returns [1.897275e-08, 5340354].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:46
 float D_GGX(float alpha, float NxH2)
 {
@@ -208,7 +208,7 @@ float D_GGX(float alpha, float NxH2)
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = let i = g.cos_i + sqrt(alpha^2 + (1 - alpha^2) * g.cos_i^2); let o = g.cos_o + sqrt(alpha^2 +
 // (1 - alpha^2) * g.cos_o^2); 1 / (i * o)
-// Expects alpha in [0.0002441406, 1]. Returns [0.2319103, 1.677722e+07].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:182
 float V_SmithGGX(float alpha, float NoL, float NoV)
 {
@@ -222,7 +222,7 @@ float V_SmithGGX(float alpha, float NoL, float NoV)
 // One specular lobe's D V.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = D_GGX(roughness^2, g) * V_SmithGGX(roughness^2, g)
-// Expects roughness in [0.015625, 1]. Returns [4.743187e-09, 8.959627e+13].
+// Expects roughness in [0.015625, 1].
 // models/callisto.lobe:147
 float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 {
@@ -237,7 +237,7 @@ float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 // slides 98: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = let second = min(roughness * dual_specular_roughness_scale, 1); lerp(lobe_ggx(roughness, g),
 // lobe_ggx(second, g), dual_specular_opacity)
-// Expects roughness in [0.015625, 1]. Returns [4.743187e-09, 8.959627e+13].
+// Expects roughness in [0.015625, 1].
 // models/callisto.lobe:155
 float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
     float dual_specular_roughness_scale, float dual_specular_opacity)
@@ -253,7 +253,7 @@ float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = if g.cos_i > 0 and g.cos_o > 0 then dual_ggx(roughness, g) * F_Callisto(f0, g.cos_d) * g.cos_i
 // else 0
-// Expects f0 in [0, 1], roughness in [0.015625, 1]. Returns [0, 4.479813e+13].
+// Expects f0 in [0, 1], roughness in [0.015625, 1].
 // models/callisto.lobe:163
 float3 specular_cos(float3 f0, float roughness, float NoL, float NoV, float NxH2, float OneMinusVoH,
     float specular_fresnel_falloff, float dual_specular_roughness_scale,
@@ -268,7 +268,6 @@ float3 specular_cos(float3 f0, float roughness, float NoL, float NoV, float NxH2
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * proxima_cos(s.diffuse_color, s.alpha, g) * c2(g)
-// Returns [0, 49648.6].
 // models/callisto.lobe:181
 float3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, float OneMinusNoH,
     float OneMinusVoH, float roughness, float3 diffuse_color, float diffuse_fresnel,
@@ -289,7 +288,6 @@ float3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, f
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
-// Returns [0, 8.959627e+13].
 // models/callisto.lobe:182
 float3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusNoH,
     float OneMinusVoH, float roughness, float3 f0, float smooth_terminator,
@@ -308,7 +306,6 @@ float3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * lambert_cos(s.diffuse_color, g) * c2(g)
-// Returns [0, 41721.51].
 // models/callisto.lobe:189
 float3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float OneMinusNoH,
     float OneMinusVoH, float3 diffuse_color, float diffuse_fresnel, float diffuse_fresnel_falloff,
@@ -329,7 +326,6 @@ float3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, floa
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
-// Returns [0, 8.959627e+13].
 // models/callisto.lobe:190
 float3 callisto_lambert_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
     float OneMinusNoH, float OneMinusVoH, float roughness, float3 f0, float smooth_terminator,

@@ -21,7 +21,7 @@ float guarded_power(float x, float y)
 // Blinn77: Blinn 1977, Models of Light Reflection for Computer Synthesized Pictures
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = 1 / (pi * alpha^2) * g.cos_h^(2 / alpha^2 - 2)
-// Expects alpha in [0.0002441406, 1]. Returns [0, 5340354].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:30
 float D_BlinnPhong(float alpha, float NoH)
 {
@@ -35,7 +35,7 @@ float D_BlinnPhong(float alpha, float NoH)
 // Walter07 eq 25: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = let exponent = (g.cos_h^2 - 1) / (alpha^2 * g.cos_h^2) else -1; exp(exponent) / (pi * alpha^2
 // * g.cos_h^4) else 0
-// Expects alpha in [0.0002441406, 1]. Returns [0, inf).
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:36
 float D_Beckmann(float alpha, float NoH, float NxH2)
 {
@@ -51,7 +51,7 @@ float D_Beckmann(float alpha, float NoH, float NxH2)
 // Walter07 eq 33: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // Karis13 eq 3: Karis 2013, Real Shading in Unreal Engine 4
 // = alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)
-// Expects alpha in [0.0002441406, 1]. Returns [1.897275e-08, 5340354].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:46
 float D_GGX(float alpha, float NxH2)
 {
@@ -65,7 +65,7 @@ float D_GGX(float alpha, float NxH2)
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = let stretched = g.x_dot_h^2 / alpha_x^2 + g.y_dot_h^2 / alpha_y^2 + g.cos_h^2; 1 / (pi *
 // alpha_x * alpha_y) / stretched^2 else 0
-// Expects alpha_x in [0.0002441406, 1], alpha_y in [0.0002441406, 1]. Returns [0, inf).
+// Expects alpha_x in [0.000244140625, 1], alpha_y in [0.000244140625, 1].
 // models/microfacet.lobe:52
 float D_GGX_anisotropic(float alpha_x, float alpha_y, float NoH, float XoH, float YoH)
 {
@@ -79,7 +79,7 @@ float D_GGX_anisotropic(float alpha_x, float alpha_y, float NoH, float XoH, floa
 // min(pi * D_GGX, 2048).
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = let n = g.cos_h * alpha; let p = alpha / (1 - g.cos_h^2 + n^2); min(p^2, 2048)
-// Expects alpha in [0.0002441406, 1]. Returns [5.960464e-08, 2048].
+// Expects alpha in [0.000244140625, 1]. Returns [0, 2048].
 // models/microfacet.lobe:65
 float D_GGX_mobile(float alpha, float NxH2)
 {
@@ -102,7 +102,6 @@ float G_Implicit(float NoL, float NoV)
 // Neumann99: Neumann et al. 1999, Compact Metallic Reflectance Models
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = g.cos_i * g.cos_o / max(g.cos_i, g.cos_o) else 0
-// Returns [0, inf).
 // models/microfacet.lobe:80
 float G_Neumann(float NoL, float NoV)
 {
@@ -132,7 +131,6 @@ float G_CookTorrance(float NoL, float NoV, float NoH, float VoH)
 // with Importance Sampling
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = g.cos_i * g.cos_o / g.cos_d^2 else 1
-// Returns [0, inf).
 // models/microfacet.lobe:100
 float G_Kelemen(float NoL, float NoV, float VoH)
 {
@@ -145,7 +143,7 @@ float G_Kelemen(float NoL, float NoV, float VoH)
 // Walter07 eq 27: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = let c = cos_theta / (alpha * sqrt(1 - cos_theta^2)) else 1.6; if c < 1.6 then (3.535 * c +
 // 2.181 * c^2) / (1 + 2.276 * c + 2.577 * c^2) else 1
-// Expects alpha in [0.0002441406, 1], cos_theta in [0, 1]. Returns [0, inf).
+// Expects alpha in [0.000244140625, 1], cos_theta in [0, 1].
 // models/microfacet.lobe:108
 float G1_SmithBeckmann(float alpha, float cos_theta)
 {
@@ -158,7 +156,7 @@ float G1_SmithBeckmann(float alpha, float cos_theta)
 // Smith masking and shadowing for Beckmann's distribution; also used with Blinn-Phong's.
 // Walter07 eq 23: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = G1_SmithBeckmann(alpha, g.cos_i) * G1_SmithBeckmann(alpha, g.cos_o)
-// Expects alpha in [0.0002441406, 1]. Returns [0, inf).
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:116
 float G_SmithBeckmann(float alpha, float NoL, float NoV)
 {
@@ -168,7 +166,7 @@ float G_SmithBeckmann(float alpha, float NoL, float NoV)
 // Smith masking for GGX.
 // Walter07 eq 34: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = 2 * cos_theta / (cos_theta + sqrt(alpha^2 + (1 - alpha^2) * cos_theta^2))
-// Expects alpha in [0.0002441406, 1], cos_theta in [0, 1]. Returns [0, 2.00012].
+// Expects alpha in [0.000244140625, 1], cos_theta in [0, 1].
 // models/microfacet.lobe:121
 float G1_SmithGGX(float alpha, float cos_theta)
 {
@@ -180,7 +178,7 @@ float G1_SmithGGX(float alpha, float cos_theta)
 // Smith masking and shadowing for GGX, taken as independent.
 // Walter07 eq 23: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = G1_SmithGGX(alpha, g.cos_i) * G1_SmithGGX(alpha, g.cos_o)
-// Expects alpha in [0.0002441406, 1]. Returns [0, 4.000481].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:126
 float G_SmithGGX(float alpha, float NoL, float NoV)
 {
@@ -190,7 +188,7 @@ float G_SmithGGX(float alpha, float NoL, float NoV)
 // Schlick's rational masking; k is where the flavors below differ.
 // Schlick94 eq 19: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = cos_theta / (cos_theta * (1 - k) + k)
-// Expects k in [0.0001220703, 1], cos_theta in [0, 1]. Returns [0, 1.978144].
+// Expects k in [0.0001220703125, 1], cos_theta in [0, 1].
 // models/microfacet.lobe:131
 float G1_Schlick(float k, float cos_theta)
 {
@@ -200,7 +198,7 @@ float G1_Schlick(float k, float cos_theta)
 // k that fits Schlick's masking to Beckmann's.
 // Schlick94: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = alpha * sqrt(2/pi)
-// Expects alpha in [0.0002441406, 1]. Returns [0.000194796, 0.7978846].
+// Expects alpha in [0.000244140625, 1]. Returns [0.0001220703125, 1].
 // models/microfacet.lobe:136
 float k_SchlickBeckmann(float alpha)
 {
@@ -210,7 +208,7 @@ float k_SchlickBeckmann(float alpha)
 // k for image-based lighting: the fit to GGX that is exact at alpha = 1.
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = alpha / 2
-// Expects alpha in [0.0002441406, 1]. Returns [0.0001220703, 0.5].
+// Expects alpha in [0.000244140625, 1]. Returns [0.0001220703125, 1].
 // models/microfacet.lobe:140
 float k_SchlickGGX(float alpha)
 {
@@ -221,7 +219,7 @@ float k_SchlickGGX(float alpha)
 // hotness off smooth materials.
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = (roughness + 1)^2 / 8
-// Expects roughness in [0.015625, 1]. Returns [0.1289368, 0.5].
+// Expects roughness in [0.015625, 1]. Returns [0.0001220703125, 1].
 // models/microfacet.lobe:145
 float k_SchlickGGX_analytic(float roughness)
 {
@@ -232,7 +230,7 @@ float k_SchlickGGX_analytic(float roughness)
 // Schlick's masking fitted to Beckmann's distribution.
 // Schlick94 eq 19: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = G1_Schlick(k_SchlickBeckmann(alpha), cos_theta)
-// Expects alpha in [0.0002441406, 1], cos_theta in [0, 1]. Returns [0, 1.978144].
+// Expects alpha in [0.000244140625, 1], cos_theta in [0, 1].
 // models/microfacet.lobe:150
 float G1_SchlickBeckmann(float alpha, float cos_theta)
 {
@@ -242,7 +240,7 @@ float G1_SchlickBeckmann(float alpha, float cos_theta)
 // Schlick's masking and shadowing fitted to Beckmann's distribution.
 // Schlick94 eq 19: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = G1_SchlickBeckmann(alpha, g.cos_i) * G1_SchlickBeckmann(alpha, g.cos_o)
-// Expects alpha in [0.0002441406, 1]. Returns [0, 3.913055].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:155
 float G_SchlickBeckmann(float alpha, float NoL, float NoV)
 {
@@ -252,7 +250,7 @@ float G_SchlickBeckmann(float alpha, float NoL, float NoV)
 // Schlick's masking fitted to GGX, for image-based lighting.
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = G1_Schlick(k_SchlickGGX(alpha), cos_theta)
-// Expects alpha in [0.0002441406, 1], cos_theta in [0, 1]. Returns [0, 1.978144].
+// Expects alpha in [0.000244140625, 1], cos_theta in [0, 1].
 // models/microfacet.lobe:160
 float G1_SchlickGGX(float alpha, float cos_theta)
 {
@@ -262,7 +260,7 @@ float G1_SchlickGGX(float alpha, float cos_theta)
 // Schlick's masking and shadowing fitted to GGX, for image-based lighting.
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = G1_SchlickGGX(alpha, g.cos_i) * G1_SchlickGGX(alpha, g.cos_o)
-// Expects alpha in [0.0002441406, 1]. Returns [0, 3.913055].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:165
 float G_SchlickGGX(float alpha, float NoL, float NoV)
 {
@@ -272,7 +270,7 @@ float G_SchlickGGX(float alpha, float NoL, float NoV)
 // Schlick's masking fitted to GGX, for analytic lights.
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = G1_Schlick(k_SchlickGGX_analytic(roughness), cos_theta)
-// Expects roughness in [0.015625, 1], cos_theta in [0, 1]. Returns [0, 1.04955].
+// Expects roughness in [0.015625, 1], cos_theta in [0, 1].
 // models/microfacet.lobe:170
 float G1_SchlickGGX_analytic(float roughness, float cos_theta)
 {
@@ -282,7 +280,7 @@ float G1_SchlickGGX_analytic(float roughness, float cos_theta)
 // Schlick's masking and shadowing fitted to GGX, for analytic lights.
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = G1_SchlickGGX_analytic(roughness, g.cos_i) * G1_SchlickGGX_analytic(roughness, g.cos_o)
-// Expects roughness in [0.015625, 1]. Returns [0, 1.101555].
+// Expects roughness in [0.015625, 1].
 // models/microfacet.lobe:175
 float G_SchlickGGX_analytic(float roughness, float NoL, float NoV)
 {
@@ -294,7 +292,7 @@ float G_SchlickGGX_analytic(float roughness, float NoL, float NoV)
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = let i = g.cos_i + sqrt(alpha^2 + (1 - alpha^2) * g.cos_i^2); let o = g.cos_o + sqrt(alpha^2 +
 // (1 - alpha^2) * g.cos_o^2); 1 / (i * o)
-// Expects alpha in [0.0002441406, 1]. Returns [0.2319103, 1.677722e+07].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:182
 float V_SmithGGX(float alpha, float NoL, float NoV)
 {
@@ -310,7 +308,7 @@ float V_SmithGGX(float alpha, float NoL, float NoV)
 // BRDFs
 // = let i = g.cos_o * sqrt(alpha^2 + (1 - alpha^2) * g.cos_i^2); let o = g.cos_i * sqrt(alpha^2 +
 // (1 - alpha^2) * g.cos_o^2); 0.5 / (i + o) else 0
-// Expects alpha in [0.0002441406, 1]. Returns [0, inf).
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:190
 float V_SmithGGXCorrelated(float alpha, float NoL, float NoV)
 {
@@ -325,7 +323,7 @@ float V_SmithGGXCorrelated(float alpha, float NoL, float NoV)
 // The correlated V without square roots: exact at alpha = 0 and alpha = 1.
 // Hammon17: Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces
 // = 0.5 / lerp(2 * g.cos_i * g.cos_o, g.cos_i + g.cos_o, alpha) else 0
-// Expects alpha in [0.0002441406, 1]. Returns [0, inf).
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:200
 float V_SmithJointApprox(float alpha, float NoL, float NoV)
 {
@@ -336,7 +334,7 @@ float V_SmithJointApprox(float alpha, float NoL, float NoV)
 // No change with the angle.
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = f0
-// Expects f0 in [0, 1]. Returns [0, 1].
+// Expects f0 in [0, 1].
 // models/microfacet.lobe:209
 vec3 F_None(vec3 f0)
 {
@@ -346,7 +344,7 @@ vec3 F_None(vec3 f0)
 // Schlick's approximation of the Fresnel equations.
 // Schlick94 eq 15: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = f0 + (1 - f0) * (1 - cos_d)^5
-// Expects f0 in [0, 1], VoH in [0, 1]. Returns [0, 1].
+// Expects f0 in [0, 1], VoH in [0, 1].
 // models/microfacet.lobe:213
 vec3 F_Schlick(vec3 f0, float VoH)
 {
@@ -358,7 +356,7 @@ vec3 F_Schlick(vec3 f0, float VoH)
 // The power as a spherical Gaussian. Off by up to 3.8e-3, and not f0 at normal incidence.
 // Karis13 eq 5: Karis 2013, Real Shading in Unreal Engine 4
 // = f0 + (1 - f0) * 2^((-5.55473 * cos_d - 6.98316) * cos_d)
-// Expects f0 in [0, 1], VoH in [0, 1]. Returns [0.0001681586, 1].
+// Expects f0 in [0, 1], VoH in [0, 1].
 // models/microfacet.lobe:216
 vec3 F_Schlick_spherical_gaussian(vec3 f0, float VoH)
 {
@@ -378,7 +376,7 @@ vec3 F_Schlick_spherical_gaussian(vec3 f0, float VoH)
 // sqrt(4 * s + c^2) + c; let difference = 4 * s / sum else 0; let amplitude = difference / sum
 // else 0; let polarization = (sum * cos_d - contrast) / (difference * cos_d + contrast) else 1;
 // 0.5 * amplitude^2 * (1 + polarization^2)
-// Expects f0 in [0, 1], VoH in [0, 1]. Returns [0, inf).
+// Expects f0 in [0, 1], VoH in [0, 1].
 // models/microfacet.lobe:226
 float F_dielectric(float f0, float VoH)
 {
@@ -398,7 +396,7 @@ float F_dielectric(float f0, float VoH)
 // The Fresnel equations per channel.
 // Cook82: Cook and Torrance 1982, A Reflectance Model for Computer Graphics
 // = color(F_dielectric(f0.r, cos_d), F_dielectric(f0.g, cos_d), F_dielectric(f0.b, cos_d))
-// Expects f0 in [0, 1], VoH in [0, 1]. Returns [0, inf).
+// Expects f0 in [0, 1], VoH in [0, 1].
 // models/microfacet.lobe:243
 vec3 F_CookTorrance(vec3 f0, float VoH)
 {
@@ -410,7 +408,7 @@ vec3 F_CookTorrance(vec3 f0, float VoH)
 // Lambert60: Lambert 1760, Photometria
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
-// Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
+// Expects diffuse_color in [0, 1].
 // models/microfacet.lobe:251
 vec3 Diffuse_Lambert(vec3 diffuse_color)
 {
@@ -421,7 +419,7 @@ vec3 Diffuse_Lambert(vec3 diffuse_color)
 // Burley12 section 5.3: Burley 2012, Physically-Based Shading at Disney
 // = let at_grazing = 0.5 + 2 * roughness * g.cos_d^2; let lit = 1 + (at_grazing - 1) * (1 -
 // g.cos_i)^5; let seen = 1 + (at_grazing - 1) * (1 - g.cos_o)^5; diffuse_color / pi * lit * seen
-// Expects diffuse_color in [0, 1], roughness in [0.015625, 1]. Returns [0, 1.989437].
+// Expects diffuse_color in [0, 1], roughness in [0.015625, 1].
 // models/microfacet.lobe:255
 vec3 Diffuse_Burley(vec3 diffuse_color, float roughness, float NoL, float NoV, float VoH)
 {
@@ -444,7 +442,7 @@ vec3 Diffuse_Burley(vec3 diffuse_color, float roughness, float NoL, float NoV, f
 // = let a = 1 - 0.5 * sigma^2 / (sigma^2 + 0.33); let b = 0.45 * sigma^2 / (sigma^2 + 0.09); let
 // ratio = max(g.v_dot_l - g.cos_i * g.cos_o, 0) / max(g.cos_i, g.cos_o) else 0; diffuse_color / pi
 // * (a + b * ratio)
-// Expects diffuse_color in [0, 1], sigma in [0, 1.570796]. Returns [-0.09643265, inf).
+// Expects diffuse_color in [0, 1], sigma in [0, 1.5707963267948966].
 // models/microfacet.lobe:267
 vec3 Diffuse_OrenNayar(vec3 diffuse_color, float sigma, float NoL, float NoV, float VoL)
 {

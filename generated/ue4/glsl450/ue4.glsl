@@ -17,7 +17,7 @@ vec3 guarded_normalize(vec3 v)
 // Diffuse albedo: metals have none.
 // Karis13: Karis 2013, Real Shading in Unreal Engine 4
 // = base_color * (1 - metallic)
-// Expects base_color in [0, 1], metallic in [0, 1]. Returns [0, 1].
+// Expects base_color in [0, 1], metallic in [0, 1].
 // models/ue4.lobe:15
 vec3 DiffuseColor(vec3 base_color, float metallic)
 {
@@ -27,7 +27,7 @@ vec3 DiffuseColor(vec3 base_color, float metallic)
 // Reflectance at normal incidence: 0.08 specular for dielectrics, the base color for metals.
 // Karis13: Karis 2013, Real Shading in Unreal Engine 4
 // = lerp(0.08 * specular, base_color, metallic)
-// Expects base_color in [0, 1], metallic in [0, 1], specular in [0, 1]. Returns [0, 1].
+// Expects base_color in [0, 1], metallic in [0, 1], specular in [0, 1].
 // models/ue4.lobe:19
 vec3 SpecularColor(vec3 base_color, float metallic, float specular)
 {
@@ -39,7 +39,7 @@ vec3 SpecularColor(vec3 base_color, float metallic, float specular)
 // Schlick94 eq 15: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = let tail = (1 - cos_d)^5; saturate(50 * f0.g) * tail + (1 - tail) * f0
-// Expects f0 in [0, 1], one_minus_cos_d in [0, 1]. Returns [0, 1.96875].
+// Expects f0 in [0, 1], one_minus_cos_d in [0, 1].
 // models/ue4.lobe:28
 vec3 F_Schlick_occluded(vec3 f0, float one_minus_cos_d)
 {
@@ -52,7 +52,7 @@ vec3 F_Schlick_occluded(vec3 f0, float one_minus_cos_d)
 // min(pi * D_GGX, 2048).
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = let n = g.cos_h * alpha; let p = alpha / (1 - g.cos_h^2 + n^2); min(p^2, 2048)
-// Expects alpha in [0.0002441406, 1]. Returns [5.960464e-08, 2048].
+// Expects alpha in [0.000244140625, 1]. Returns [0, 2048].
 // models/microfacet.lobe:65
 float D_GGX_mobile(float alpha, float NxH2)
 {
@@ -65,7 +65,7 @@ float D_GGX_mobile(float alpha, float NxH2)
 // rest. The missing 1/pi is in D_GGX_mobile, which leaves it out.
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = (0.25 * roughness + 0.25) * D_GGX_mobile(roughness^2, g)
-// Expects roughness in [0.015625, 1]. Returns [1.513399e-08, 588.4688].
+// Expects roughness in [0.015625, 1].
 // models/ue4.lobe:38
 float specular_mobile(float roughness, float NxH2)
 {
@@ -76,7 +76,7 @@ float specular_mobile(float roughness, float NxH2)
 // Lazarov13: Lazarov 2013, Getting More Physical in Call of Duty: Black Ops II
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = let x = 1 - roughness; min(x^2, 2^(-9.28 * cos_o)) * x + (0.0425 - 0.0275 * roughness)
-// Expects roughness in [0.015625, 1], NoV in [0, 1]. Returns [0.015, 0.9959239].
+// Expects roughness in [0.015625, 1], NoV in [0, 1].
 // models/ue4.lobe:44
 float env_brdf_a004(float roughness, float NoV)
 {
@@ -88,7 +88,7 @@ float env_brdf_a004(float roughness, float NoV)
 // Lazarov13: Lazarov 2013, Getting More Physical in Call of Duty: Black Ops II
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = -1.04 * env_brdf_a004(roughness, cos_o) + (1.04 - 0.572 * roughness)
-// Expects roughness in [0.015625, 1], NoV in [0, 1]. Returns [-0.004698376, 0.9856626].
+// Expects roughness in [0.015625, 1], NoV in [0, 1].
 // models/ue4.lobe:52
 float EnvBRDFApprox_scale(float roughness, float NoV)
 {
@@ -99,7 +99,7 @@ float EnvBRDFApprox_scale(float roughness, float NoV)
 // Lazarov13: Lazarov 2013, Getting More Physical in Call of Duty: Black Ops II
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = 1.04 * env_brdf_a004(roughness, cos_o) + (0.022 * roughness - 0.04)
-// Expects roughness in [0.015625, 1], NoV in [0, 1]. Returns [-0.0024, 0.9961046].
+// Expects roughness in [0.015625, 1], NoV in [0, 1].
 // models/ue4.lobe:58
 float EnvBRDFApprox_bias(float roughness, float NoV)
 {
@@ -110,8 +110,7 @@ float EnvBRDFApprox_bias(float roughness, float NoV)
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = let scale = EnvBRDFApprox_scale(roughness, cos_o); let bias = EnvBRDFApprox_bias(roughness,
 // cos_o); f0 * scale + saturate(50 * f0.g) * bias
-// Expects f0 in [0, 1], roughness in [0.015625, 1], NoV in [0, 1]. Returns
-// [-0.004698376, 1.950045].
+// Expects f0 in [0, 1], roughness in [0.015625, 1], NoV in [0, 1].
 // models/ue4.lobe:63
 vec3 EnvBRDFApprox(vec3 f0, float roughness, float NoV)
 {
@@ -124,7 +123,7 @@ vec3 EnvBRDFApprox(vec3 f0, float roughness, float NoV)
 // Lambert60: Lambert 1760, Photometria
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
-// Expects diffuse_color in [0, 1]. Returns [0, 0.3183099].
+// Expects diffuse_color in [0, 1].
 // models/microfacet.lobe:251
 vec3 Diffuse_Lambert(vec3 diffuse_color)
 {
@@ -135,7 +134,7 @@ vec3 Diffuse_Lambert(vec3 diffuse_color)
 // Walter07 eq 33: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // Karis13 eq 3: Karis 2013, Real Shading in Unreal Engine 4
 // = alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)
-// Expects alpha in [0.0002441406, 1]. Returns [1.897275e-08, 5340354].
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:46
 float D_GGX(float alpha, float NxH2)
 {
@@ -147,7 +146,7 @@ float D_GGX(float alpha, float NxH2)
 // The correlated V without square roots: exact at alpha = 0 and alpha = 1.
 // Hammon17: Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces
 // = 0.5 / lerp(2 * g.cos_i * g.cos_o, g.cos_i + g.cos_o, alpha) else 0
-// Expects alpha in [0.0002441406, 1]. Returns [0, inf).
+// Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:200
 float V_SmithJointApprox(float alpha, float NoL, float NoV)
 {
@@ -158,7 +157,6 @@ float V_SmithJointApprox(float alpha, float NoL, float NoV)
 // Default lit: Lambert, GGX, the joint Smith approximation and the occluded Schlick term.
 // Karis13: Karis 2013, Real Shading in Unreal Engine 4
 // = Diffuse_Lambert(s.diffuse_color) * g.cos_i
-// Returns [0, 0.3183099].
 // models/ue4.lobe:74
 vec3 default_lit_diffuse(float NoL, vec3 diffuse_color)
 {
@@ -169,7 +167,6 @@ vec3 default_lit_diffuse(float NoL, vec3 diffuse_color)
 // Karis13: Karis 2013, Real Shading in Unreal Engine 4
 // = D_GGX(s.alpha, g) * V_SmithJointApprox(s.alpha, g) * F_Schlick_occluded(s.f0, g.cos_d) *
 // g.cos_i
-// Returns [0, inf).
 // models/ue4.lobe:75
 vec3 default_lit_specular(float NoL, float NoV, float NxH2, float OneMinusVoH, float roughness,
     vec3 f0)
@@ -182,7 +179,6 @@ vec3 default_lit_specular(float NoL, float NoV, float NxH2, float OneMinusVoH, f
 // Mobile: no 1/pi in either part, the light's color carries it; F0 is not changed by the angle.
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = DiffuseColor(s.base_color, s.metallic) * g.cos_i
-// Returns [0, 1].
 // models/ue4.lobe:82
 vec3 mobile_diffuse(float NoL, vec3 base_color, float metallic)
 {
@@ -193,7 +189,6 @@ vec3 mobile_diffuse(float NoL, vec3 base_color, float metallic)
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = SpecularColor(s.base_color, s.metallic, s.specular) * specular_mobile(s.roughness, g) *
 // g.cos_i
-// Returns [0, 588.4688].
 // models/ue4.lobe:83
 vec3 mobile_specular(float NoL, float NxH2, vec3 base_color, float metallic, float specular,
     float roughness)
@@ -206,7 +201,6 @@ vec3 mobile_specular(float NoL, float NxH2, vec3 base_color, float metallic, flo
 // prefiltering has it.
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = EnvBRDFApprox(SpecularColor(s.base_color, s.metallic, s.specular), s.roughness, g.cos_o)
-// Returns [-0.004698376, 1.950045].
 // models/ue4.lobe:91
 vec3 mobile_environment_specular(float NoV, vec3 base_color, float metallic, float specular,
     float roughness)
