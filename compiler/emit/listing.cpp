@@ -159,6 +159,14 @@ std::vector<Record> Listing::comment(const ir::Function& function,
     };
     if (!function.formula.empty()) add("= " + function.formula);
 
+    // What the author did not name, and a caller has to know.
+    for (std::size_t i = 0; i < function.inputs.size(); ++i) {
+        const ir::Input& input = function.inputs[i];
+        if (input.origin != ir::Origin::geometry) continue;
+        const ir::FieldFacts& field = ir::facts(static_cast<ir::GeometryField>(input.which));
+        if (!field.nameable) add(fmt::format("{} is {}.", inputs[i], field.doc));
+    }
+
     // Fields and parameters have the ranges that their structures state.
     std::string ranges;
     for (std::size_t i = 0; i < function.inputs.size(); ++i) {

@@ -67,6 +67,7 @@ float blend_weight(float one_minus_cos_theta, float n, float cos_phi, float m)
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = blend_weight(g.cos_d, falloff_scale(diffuse_fresnel_falloff), g.cos_h,
 // falloff_scale(diffuse_fresnel_tangent_falloff))
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 1].
 // models/callisto.lobe:72
 float alpha_f(float NoH, float OneMinusVoH, float diffuse_fresnel_falloff,
@@ -81,6 +82,7 @@ float alpha_f(float NoH, float OneMinusVoH, float diffuse_fresnel_falloff,
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = blend_weight(g.cos_h, falloff_scale(retroreflection_falloff), g.cos_d,
 // falloff_scale(retroreflection_tangent_falloff))
+// OneMinusNoH is |n x h|^2 / (1 + n.h).
 // Returns [0, 1].
 // models/callisto.lobe:82
 float alpha_r(float VoH, float OneMinusNoH, float retroreflection_falloff,
@@ -95,6 +97,8 @@ float alpha_r(float VoH, float OneMinusNoH, float retroreflection_falloff,
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = lerp(1, diffuse_fresnel * diffuse_fresnel_tint, alpha_f(g)) * lerp(1, retroreflection *
 // retroreflection_tint, alpha_r(g))
+// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 65536].
 // models/callisto.lobe:92
 vec3 c1(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH, float diffuse_fresnel,
@@ -114,6 +118,8 @@ vec3 c1(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH, float diffus
 // cosines, not of angles: with angles in radians it would exceed 1, and c2 go below 0.
 // slides 90: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = (1 - (1 - g.cos_d)^3) * (1 - (1 - g.cos_h)^3)
+// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 1].
 // models/callisto.lobe:99
 float alpha_s(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH)
@@ -126,6 +132,8 @@ float alpha_s(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH)
 // slides 90: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = let mask = alpha_s(g); lerp(1, smoothstep(0, mask * smooth_terminator_length, g.cos_i), mask *
 // smooth_terminator * smooth_terminator_tint)
+// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 2].
 // models/callisto.lobe:103
 vec3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
@@ -194,6 +202,7 @@ vec3 lambert_cos(vec3 diffuse_color, float NoL, float NoV)
 // Walter07 eq 33: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // Karis13 eq 3: Karis 2013, Real Shading in Unreal Engine 4
 // = alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:46
 float D_GGX(float alpha, float NxH2)
@@ -221,6 +230,7 @@ float V_SmithGGX(float alpha, float NoL, float NoV)
 // One specular lobe's D V.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = D_GGX(roughness^2, g) * V_SmithGGX(roughness^2, g)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects roughness in [0.015625, 1].
 // models/callisto.lobe:147
 float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
@@ -236,6 +246,7 @@ float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 // slides 98: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = let second = min(roughness * dual_specular_roughness_scale, 1); lerp(lobe_ggx(roughness, g),
 // lobe_ggx(second, g), dual_specular_opacity)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects roughness in [0.015625, 1].
 // models/callisto.lobe:155
 float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
@@ -251,6 +262,8 @@ float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = if g.cos_i > 0 and g.cos_o > 0 then dual_ggx(roughness, g) * F_Callisto(f0, g.cos_d) * g.cos_i
 // else 0
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Expects f0 in [0, 1], roughness in [0.015625, 1].
 // models/callisto.lobe:163
 vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, float OneMinusVoH,
@@ -266,6 +279,8 @@ vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, fl
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * proxima_cos(s.diffuse_color, s.alpha, g) * c2(g)
+// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:181
 vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, float OneMinusNoH,
     float OneMinusVoH, float roughness, vec3 diffuse_color, float diffuse_fresnel,
@@ -286,6 +301,9 @@ vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, flo
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
+// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:182
 vec3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusNoH,
     float OneMinusVoH, float roughness, vec3 f0, float smooth_terminator,
@@ -304,6 +322,8 @@ vec3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, f
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * lambert_cos(s.diffuse_color, g) * c2(g)
+// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:189
 vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float OneMinusNoH,
     float OneMinusVoH, vec3 diffuse_color, float diffuse_fresnel, float diffuse_fresnel_falloff,
@@ -324,6 +344,9 @@ vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float 
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
+// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:190
 vec3 callisto_lambert_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
     float OneMinusNoH, float OneMinusVoH, float roughness, vec3 f0, float smooth_terminator,

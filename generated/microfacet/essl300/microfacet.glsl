@@ -37,6 +37,7 @@ float D_BlinnPhong(float alpha, float NoH)
 // Walter07 eq 25: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = let exponent = (g.cos_h^2 - 1) / (alpha^2 * g.cos_h^2) else -1; exp(exponent) / (pi * alpha^2
 // * g.cos_h^4) else 0
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:36
 float D_Beckmann(float alpha, float NoH, float NxH2)
@@ -53,6 +54,7 @@ float D_Beckmann(float alpha, float NoH, float NxH2)
 // Walter07 eq 33: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // Karis13 eq 3: Karis 2013, Real Shading in Unreal Engine 4
 // = alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:46
 float D_GGX(float alpha, float NxH2)
@@ -81,6 +83,7 @@ float D_GGX_anisotropic(float alpha_x, float alpha_y, float NoH, float XoH, floa
 // min(pi * D_GGX, 2048).
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = let n = g.cos_h * alpha; let p = alpha / (1 - g.cos_h^2 + n^2); min(p^2, 2048)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1]. Returns [0, 2048].
 // models/microfacet.lobe:65
 float D_GGX_mobile(float alpha, float NxH2)

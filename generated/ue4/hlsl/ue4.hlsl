@@ -52,6 +52,7 @@ float3 F_Schlick_occluded(float3 f0, float one_minus_cos_d)
 // min(pi * D_GGX, 2048).
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = let n = g.cos_h * alpha; let p = alpha / (1 - g.cos_h^2 + n^2); min(p^2, 2048)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1]. Returns [0, 2048].
 // models/microfacet.lobe:65
 float D_GGX_mobile(float alpha, float NxH2)
@@ -65,6 +66,7 @@ float D_GGX_mobile(float alpha, float NxH2)
 // rest. The missing 1/pi is in D_GGX_mobile, which leaves it out.
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = (0.25 * roughness + 0.25) * D_GGX_mobile(roughness^2, g)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects roughness in [0.015625, 1].
 // models/ue4.lobe:38
 float specular_mobile(float roughness, float NxH2)
@@ -134,6 +136,7 @@ float3 Diffuse_Lambert(float3 diffuse_color)
 // Walter07 eq 33: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // Karis13 eq 3: Karis 2013, Real Shading in Unreal Engine 4
 // = alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:46
 float D_GGX(float alpha, float NxH2)
@@ -167,6 +170,8 @@ float3 default_lit_diffuse(float NoL, float3 diffuse_color)
 // Karis13: Karis 2013, Real Shading in Unreal Engine 4
 // = D_GGX(s.alpha, g) * V_SmithJointApprox(s.alpha, g) * F_Schlick_occluded(s.f0, g.cos_d) *
 // g.cos_i
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/ue4.lobe:75
 float3 default_lit_specular(float NoL, float NoV, float NxH2, float OneMinusVoH, float roughness,
     float3 f0)
@@ -189,6 +194,7 @@ float3 mobile_diffuse(float NoL, float3 base_color, float metallic)
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = SpecularColor(s.base_color, s.metallic, s.specular) * specular_mobile(s.roughness, g) *
 // g.cos_i
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // models/ue4.lobe:83
 float3 mobile_specular(float NoL, float NxH2, float3 base_color, float metallic, float specular,
     float roughness)

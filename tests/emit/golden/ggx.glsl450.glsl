@@ -5,6 +5,7 @@
 // Trowbridge-Reitz normal distribution, per steradian.
 // Walter07 eq 33: Walter et al. 2007, Microfacet Models
 // = alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1]. Returns [0, inf).
 // models/microfacet.lobe:7
 float D_GGX(float alpha, float NxH2)

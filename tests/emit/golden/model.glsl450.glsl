@@ -13,12 +13,14 @@ vec3 guarded_normalize(vec3 v)
 }
 #endif
 
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/velvet.lobe:5
 float F_sheen(float OneMinusVoH, float sheen)
 {
     return sheen * OneMinusVoH;
 }
 
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/velvet.lobe:9
 vec3 velvet_diffuse(float NoL, float OneMinusVoH, vec3 diffuse_color, float sheen)
 {
