@@ -30,9 +30,7 @@ public:
     /// The box is halved at most some thousand times; false means proved or not known.
     bool prove();
 
-    /// The range of a root over the declared ranges, as tight as slopes make it.
-    Interval quick_range(std::size_t root) { return bounds(root, whole_); }
-    /// The same, tightened by some halving.
+    /// The range of a root over the declared ranges, as tight as slopes and some halving make it.
     Interval range(std::size_t root);
 
 private:

@@ -15,8 +15,8 @@ using ir::Type;
 /// One forward sweep for one scalar input. An invalid id stands for 0.
 class Sweep {
 public:
-    Sweep(ir::Function& function, std::uint32_t rising, std::uint32_t any, ScalarInput with)
-        : function_(function), graph_(function.graph), with_(with)
+    Sweep(Graph& graph, std::uint32_t rising, std::uint32_t any, ScalarInput with)
+        : graph_(graph), with_(with)
     {
         rising_ = graph_.input(rising, Type::scalar);
         any_ = graph_.input(any, Type::scalar);
@@ -214,7 +214,6 @@ private:
         return a.valid() && b.valid() ? apply(Op::cross, {a, b}) : ExprId{};
     }
 
-    ir::Function& function_;
     Graph& graph_;
     ScalarInput with_;
     ExprId rising_;
@@ -243,7 +242,7 @@ Flat differentiate(const Flat& flat, ExprId subject, const std::vector<ScalarInp
     const std::uint32_t rising = add("rising", 0);
     const std::uint32_t any = add("any", -infinity);
     for (const ScalarInput& input : wanted)
-        result.roots.push_back(Sweep{result.function, rising, any, input}.run(subject));
+        result.roots.push_back(Sweep{result.function.graph, rising, any, input}.run(subject));
     return result;
 }
 

@@ -93,11 +93,9 @@ public:
     {
         const ExprId result = draft_.function.result;
         if (graph_[result].type == ir::Type::boolean) return {0, 1};
-        BoxProof proof{
-            flatten(functions_, draft_.function, {&result, 1}, {}), {Requirement{}}, 0, effort_};
-        // Past a declared range, tighter ones are of little use.
-        const bool declared_so = draft_.function.declared_range.has_value();
-        const Interval inferred = declared_so ? proof.quick_range(0) : proof.range(0);
+        // What has a declared range was measured against it; a tighter one is of little use.
+        const bool known = draft_.function.declared_range.has_value();
+        const Interval inferred = known ? hull(ranges_of(result)) : infer(result);
         ir::Range range{-infinity, infinity};
         if (inferred.low <= inferred.high) range = {inferred.low, inferred.high};
         if (const auto& declared = draft_.function.declared_range) {
@@ -110,6 +108,12 @@ public:
     }
 
 private:
+    Interval infer(ExprId result) const
+    {
+        const Flat flat = flatten(functions_, draft_.function, {&result, 1}, {});
+        return BoxProof{flat, {Requirement{}}, 0, effort_}.range(0);
+    }
+
     /// The ranges of everything that is asked about, in one run.
     void measure()
     {
