@@ -116,12 +116,25 @@ std::string label(const Problem& problem, const Wording& wording, std::string_vi
     return fmt::format("U+{:04X}{}{}", code, wording.label.empty() ? "" : " ", wording.label);
 }
 
+/// `0.5f` is a number of another language, `2x` a product of mathematics.
+std::optional<std::string> without_suffix(std::string_view written)
+{
+    const std::size_t end = written.find_first_not_of("0123456789.");
+    if (end == std::string_view::npos) return std::nullopt;
+    const std::string_view suffix = written.substr(end);
+    if (suffix.find_first_not_of("fFhHuUlL") == std::string_view::npos && suffix.size() <= 2)
+        return std::string{written.substr(0, end)};
+    if (suffix.find('.') != std::string_view::npos) return std::nullopt;
+    return fmt::format("{} * {}", written.substr(0, end), suffix);
+}
+
 std::optional<std::string> replacement(const Problem& problem, const Wording& wording,
                                        std::string_view text)
 {
     if (wording.replacement != nullptr) return wording.replacement;
     const std::string_view written = text.substr(problem.begin, problem.end - problem.begin);
     switch (problem.trouble) {
+    case Trouble::number_suffix: return without_suffix(written);
     case Trouble::number_no_integer_part: return fmt::format("0{}", written);
     case Trouble::number_no_fraction:
         return written.back() == '.' ? std::optional{fmt::format("{}0", written)} : std::nullopt;

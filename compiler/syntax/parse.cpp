@@ -13,18 +13,10 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{8} << 20;
 
-/// The words that start an item, and what comes next in it.
-struct ItemWord {
-    std::string_view word;
-    TokenKind next;
-};
-constexpr std::array item_words{
-    ItemWord{"module", TokenKind::identifier}, ItemWord{"import", TokenKind::identifier},
-    ItemWord{"source", TokenKind::identifier}, ItemWord{"tier", TokenKind::identifier},
-    ItemWord{"param", TokenKind::identifier},  ItemWord{"term", TokenKind::identifier},
-    ItemWord{"form", TokenKind::identifier},   ItemWord{"effect", TokenKind::string},
-    ItemWord{"model", TokenKind::identifier},  ItemWord{"packing", TokenKind::identifier},
-    ItemWord{"engine", TokenKind::identifier},
+/// The words that start an item.
+constexpr std::array<std::string_view, 11> item_words{
+    "module", "import", "source", "tier",    "param",  "term",
+    "form",   "effect", "model",  "packing", "engine",
 };
 
 bool closes(TokenKind kind)
@@ -153,7 +145,7 @@ void Parser::fail(Diagnostic diagnostic)
     stop_ = {TokenKind::end, false, false, token.begin, token.begin};
 }
 
-void Parser::fail_expected(std::string_view what)
+void Parser::fail_expected(std::string_view what, std::string help)
 {
     Diagnostic result;
     result.code = Code::unexpected_token;
@@ -165,7 +157,25 @@ void Parser::fail_expected(std::string_view what)
         result.message = fmt::format("expected {}, found {}", what, words(current()));
         result.primary = {span(current()), ""};
     }
+    if (!help.empty()) result.helps.push_back(std::move(help));
     fail(std::move(result));
+}
+
+/// For what can only mean one thing: reports it with the edit, and parsing goes on as if the edit
+/// had been made.
+void Parser::report_mended(std::string message, const Span& span, std::string replacement)
+{
+    if (failed_) return;
+    Diagnostic result;
+    result.code = Code::unexpected_token;
+    result.message = std::move(message);
+    result.primary = {span, ""};
+    const std::size_t begin = replacement.find_first_not_of(' ');
+    const std::string what = begin == std::string::npos
+                                 ? std::string{"leave it out"}
+                                 : fmt::format("write `{}`", replacement.substr(begin));
+    result.fix = Fix{span, std::move(replacement), what};
+    report(std::move(result));
 }
 
 // ---- tokens
@@ -201,10 +211,9 @@ bool Parser::starts_item(std::size_t position) const
 {
     const Token& token = tokens_.all[position];
     if (token.kind != TokenKind::identifier || !token.first_on_line) return false;
-    const std::string_view word = text(token);
-    return std::any_of(item_words.begin(), item_words.end(), [&](const ItemWord& item) {
-        return item.word == word && tokens_.all[position + 1].kind == item.next;
-    });
+    const TokenKind next = tokens_.all[position + 1].kind;
+    return (next == TokenKind::identifier || next == TokenKind::string) &&
+           std::find(item_words.begin(), item_words.end(), text(token)) != item_words.end();
 }
 
 bool Parser::at_likely_item() const

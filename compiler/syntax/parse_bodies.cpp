@@ -12,8 +12,12 @@ std::vector<ParameterClause> Parser::parse_parameters()
     while (!failed_ && !at(TokenKind::right_parenthesis)) {
         ParameterClause parameter;
         parameter.name = expect_identifier("the name of a parameter");
+        if (at(TokenKind::identifier))
+            fail_expected("`:` and a type", "a parameter is written `name: type`");
         expect(TokenKind::colon, "`:` and a type");
         parameter.type = parse_type();
+        if (at(TokenKind::assign))
+            fail_expected("`,` or `)`", "terms have no defaults; a `param` has one");
         result.push_back(std::move(parameter));
         if (!accept(TokenKind::comma)) break;
         if (at(TokenKind::right_parenthesis)) fail_expected("a parameter");
@@ -33,6 +37,8 @@ TypeClause Parser::parse_type()
         advance();
         RangeClause range;
         const Token open = current();
+        if (at(TokenKind::left_parenthesis))
+            fail_expected("`[`", "a range holds its ends and is written `[low, high]`");
         expect(TokenKind::left_bracket, "`[` and the ends of the range");
         range.low = parse_expression();
         expect(TokenKind::comma, "`,` and the upper end of the range");
@@ -50,6 +56,10 @@ Body Parser::parse_body()
 {
     Body result;
     const std::uint32_t begin = current().begin;
+    if (at(TokenKind::assign) && ahead(1).kind == TokenKind::left_brace) {
+        report_mended("a block stands without `=`", {index_, begin, ahead(1).begin}, "");
+        advance();
+    }
     if (at(TokenKind::left_brace)) {
         parse_block(result);
     } else {
@@ -83,6 +93,12 @@ void Parser::parse_block(Body& body)
         body.value = poison();
         advance();
         return;
+    }
+    if (at_word("return") && !ahead(1).first_on_line &&
+        (ahead(1).kind == TokenKind::identifier || ahead(1).kind == TokenKind::number)) {
+        report_mended("the last line of a block is its value",
+                      {index_, current().begin, ahead(1).begin}, "");
+        advance();
     }
     const Token first = current();
     body.value = parse_expression();
@@ -138,6 +154,8 @@ Output Parser::parse_output()
     result.blank_before = current().blank_before;
     const std::uint32_t begin = current().begin;
     result.name = expect_identifier("the name of an output");
+    if (at(TokenKind::identifier) && !current().first_on_line)
+        fail_expected("`=` and the value of the output", "an output is written `name = value`");
     expect(TokenKind::assign, "`=` and the value of the output");
     result.value = parse_expression();
     take_interior(result.comments);

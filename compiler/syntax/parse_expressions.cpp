@@ -242,6 +242,8 @@ ExpressionId Parser::parse_postfix()
 {
     ExpressionId base = parse_primary();
     while (accept(TokenKind::dot)) {
+        if (at(TokenKind::dot))
+            fail_expected("the name of a member", "a range is written `[low, high]`");
         Identifier member = expect_identifier("the name of a member");
         const std::size_t high = 1 + height(base);
         if (failed_ || too_high(high)) return base;
@@ -285,6 +287,9 @@ ExpressionId Parser::parse_primary()
         report(std::move(result));
         return conditional;
     }
+    case TokenKind::word_let:
+        fail_expected("an expression", "`let` stands in a block: `{ let y = x  y * y }`");
+        return poison();
     default: fail_expected("an expression"); return poison();
     }
 }

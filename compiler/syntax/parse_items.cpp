@@ -94,6 +94,9 @@ void Parser::parse_item()
                 ? fmt::format("expected the end of the declaration, found {}", words(current()))
                 : fmt::format("expected a declaration, found {}", words(current()));
         result.primary = {span(current()), ""};
+        if (at(TokenKind::word_let))
+            result.helps.emplace_back(
+                "a value that terms share is a `param`, or a `term` without parameters");
         fail(std::move(result));
     }
 
@@ -191,6 +194,7 @@ TierItem Parser::parse_tier()
         Identifier name = expect_identifier("the name of a tier");
         if (!name.text.empty()) result.names.push_back(std::move(name));
     } while (accept(TokenKind::comma));
+    if (at(TokenKind::identifier) && !current().first_on_line) fail_expected("`,` between tiers");
     return result;
 }
 
@@ -207,6 +211,11 @@ ParamItem Parser::parse_param()
     if (at(TokenKind::identifier) && !current().first_on_line)
         result.tier = expect_identifier("a tier");
     if (at(TokenKind::string)) result.label = parse_string("a label");
+    if (result.label && !result.tier && at(TokenKind::identifier) && !current().first_on_line) {
+        Diagnostic late = misplaced(span(current()), "the tier stands before the label");
+        report(std::move(late));
+        result.tier = expect_identifier("a tier");
+    }
     return result;
 }
 
@@ -241,7 +250,18 @@ TermItem Parser::parse_term(Item& item)
     TermItem result;
     result.name = expect_identifier("the name of the term");
     result.parameters = parse_parameters();
-    if (accept(TokenKind::arrow)) result.result = parse_type();
+    const bool double_arrow = at(TokenKind::assign) && ahead(1).kind == TokenKind::greater &&
+                              ahead(1).begin == current().end;
+    if (at(TokenKind::colon) || double_arrow) {
+        const bool colon = at(TokenKind::colon);
+        const Span arrow = join(span(current()), span(colon ? current() : ahead(1)));
+        report_mended("the type of a result stands behind `->`", arrow, colon ? " ->" : "->");
+        advance();
+        if (!colon) advance();
+        result.result = parse_type();
+    } else if (accept(TokenKind::arrow)) {
+        result.result = parse_type();
+    }
     result.body = parse_body();
     take_interior(item.comments);
     result.body.trailing = take_trailing();

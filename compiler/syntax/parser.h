@@ -28,7 +28,8 @@ private:
     void report(Diagnostic diagnostic);
     void report_problems(std::uint32_t before);
     void fail(Diagnostic diagnostic);
-    void fail_expected(std::string_view what);
+    void fail_expected(std::string_view what, std::string help = {});
+    void report_mended(std::string message, const Span& span, std::string replacement);
     /// After which the file is given up.
     static constexpr int most_errors = 20;
 

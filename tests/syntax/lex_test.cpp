@@ -52,7 +52,8 @@ TEST_CASE("numbers are decimal and complete")
     CHECK(only_problem("1.") == "E0103 `1.` is not a number -> 1.0");
     CHECK(only_problem("1.x") == "E0103 `1.x` is not a number");
     CHECK(only_problem("1e") == "E0103 `1e` is not a number");
-    CHECK(only_problem("1.5f") == "E0103 `1.5f` is not a number");
+    CHECK(only_problem("1.5f") == "E0103 `1.5f` is not a number -> 1.5");
+    CHECK(only_problem("2x") == "E0103 `2x` is not a number -> 2 * x");
     CHECK(only_problem("1.2.3") == "E0103 `1.2.3` is not a number");
     CHECK(only_problem("0x1F") == "E0103 `0x1F` is not a number");
     CHECK(only_problem("0..1") == "E0103 `0..1` is not a number");

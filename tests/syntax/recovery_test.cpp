@@ -94,6 +94,50 @@ TEST_CASE("items say what they are made of")
           "E0204 `let` stands before the value of a block [let]");
 }
 
+TEST_CASE("what can only mean one thing is mended and read")
+{
+    const auto read = [](const std::string& item) {
+        const auto result = parsed("module m\n" + item + "\n");
+        const bool one = result.diagnostics.error_count() == 1;
+        return one ? only("module m\n" + item + "\n") + " " + meaning(result.tree).substr(9)
+                   : codes(result.diagnostics);
+    };
+    CHECK(read("term a(x: unit): unit = x") ==
+          "E0201 the type of a result stands behind `->` [:] ->  -> "
+          "term a (x:unit ) -> unit = x\n");
+    CHECK(read("term a() => unit = x") ==
+          "E0201 the type of a result stands behind `->` [=>] -> -> term a () -> unit = x\n");
+    CHECK(read("term a() -> unit = { x }") ==
+          "E0201 a block stands without `=` [= ] ->  term a () -> unit = {x}\n");
+    CHECK(read("term a() {\n  return x + 1\n}") ==
+          "E0201 the last line of a block is its value [return ] ->  "
+          "term a () -> ? = {(+ x 1)}\n");
+    CHECK(read("param p : unit = 1 \"P\" base") ==
+          "E0204 the tier stands before the label [base] param p unit = 1 tier base label \"P\"\n");
+}
+
+TEST_CASE("habits of other languages get a hint")
+{
+    const auto help = [](const std::string& item) {
+        const auto result = parsed("module m\n" + item + "\n");
+        REQUIRE(result.diagnostics.all().size() == 1);
+        REQUIRE(result.diagnostics.all()[0].helps.size() == 1);
+        return result.diagnostics.all()[0].helps[0];
+    };
+    CHECK(help("term a(unit x) = x") == "a parameter is written `name: type`");
+    CHECK(help("term a(x: unit = 1) = x") == "terms have no defaults; a `param` has one");
+    CHECK(help("term a() -> float in (0, 1) = x") ==
+          "a range holds its ends and is written `[low, high]`");
+    CHECK(help("term a() -> float in [0 .. 1] = x") == "a range is written `[low, high]`");
+    CHECK(help("term a() = let x = 1 in x") == "`let` stands in a block: `{ let y = x  y * y }`");
+    CHECK(help("let x = 1") ==
+          "a value that terms share is a `param`, or a `term` without parameters");
+    CHECK(help("model d() {\n  output x = 1\n}") == "an output is written `name = value`");
+    CHECK(only("module m\ntier a b") == "E0201 expected `,` between tiers, found `b` [b]");
+    CHECK(only("module m\neffect a off when b") ==
+          "E0201 expected the name of the effect in double quotes, found `a` [a]");
+}
+
 TEST_CASE("items stand in their order")
 {
     CHECK(only("term t() = 1\n") == "E0204 a file starts with `module` and its name [term]");
