@@ -211,8 +211,10 @@ bool Parser::starts_item(std::size_t position) const
 {
     const Token& token = tokens_.all[position];
     if (token.kind != TokenKind::identifier || !token.first_on_line) return false;
-    const TokenKind next = tokens_.all[position + 1].kind;
-    return (next == TokenKind::identifier || next == TokenKind::string) &&
+    // Its name stands beside it; a word on a line of its own may be the value of a term.
+    const Token& next = tokens_.all[position + 1];
+    return !next.first_on_line &&
+           (next.kind == TokenKind::identifier || next.kind == TokenKind::string) &&
            std::find(item_words.begin(), item_words.end(), text(token)) != item_words.end();
 }
 

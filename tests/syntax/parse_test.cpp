@@ -120,6 +120,9 @@ TEST_CASE("words of the grammar are names wherever they can be")
 {
     CHECK(expression("term + form * in - off") == "(- (+ term (* form in)) off)");
     CHECK(expression("source(model, tier).param") == "(. (call source model tier) param)");
+    const auto lines = parsed("module m\nterm f(source: unit) =\n  source\nterm g() = 1\n");
+    CHECK(codes(lines.diagnostics) == "");
+    CHECK(lines.tree.items.size() == 2);
     const auto result = parsed("module module\nparam param : in = term term \"x\"\n"
                                "term when() -> form {\n let off = when\n tier\n}\n");
     CHECK(codes(result.diagnostics) == "");

@@ -36,11 +36,24 @@ private:
 
     Identifier name()
     {
-        static constexpr std::array<std::string_view, 16> words{
-            "a",    "b",     "cos_d",  "D_GGX",
-            "term", "form",  "in",     "off",
-            "when", "param", "source", "tier",
-            "pi",   "m",     "base",   "quite_a_long_name_that_fills"};
+        static constexpr std::array<std::string_view, 17> words{
+            "a",
+            "b",
+            "cos_d",
+            "D_GGX",
+            "term",
+            "form",
+            "in",
+            "off",
+            "when",
+            "param",
+            "source",
+            "tier",
+            "pi",
+            "m",
+            "base",
+            "quite_a_long_name_that_fills",
+            "a_name_that_is_so_long_that_lines_break_before_and_behind_it_wherever_they_can"};
         return {pick(words), {}};
     }
 
