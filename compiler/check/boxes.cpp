@@ -6,12 +6,11 @@
 namespace lobe::check {
 namespace {
 
-/// Boxes that one proof may look at, and halvings that one range is worth.
+/// Boxes that one proof may look at, and a quick one.
 constexpr std::size_t most_boxes = 4096;
-constexpr std::size_t most_turns = 64;
-/// What one proof may cost of all effort, and one range: a range is never needed, only nice.
+constexpr std::size_t few_boxes = 32;
+/// A proof takes at most this part of the effort that is left.
 constexpr std::size_t proof_share = 5;
-constexpr std::size_t range_share = 200;
 /// Above this many expressions slopes cost more than halving boxes.
 constexpr std::size_t most_slope_expressions = 200'000;
 
@@ -125,16 +124,19 @@ std::optional<std::size_t> BoxProof::widest(const Box& box) const
     return best;
 }
 
-bool BoxProof::prove()
+bool BoxProof::prove() { return prove(most_boxes, true); }
+bool BoxProof::prove_quickly() { return prove(few_boxes, false); }
+
+bool BoxProof::prove(std::size_t most, bool with_slopes)
 {
-    const std::size_t budget = effort_.times(cost() * proof_share, most_boxes);
+    const std::size_t budget = effort_.times(cost() * proof_share, most);
     std::vector<Box> open{whole_};
     for (std::size_t seen = 0; !open.empty(); ++seen) {
         if (seen == budget) return false;
         effort_.spend(cost());
         const Box box = std::move(open.back());
         open.pop_back();
-        if (holds(box) || holds_by_slopes(box)) continue;
+        if (holds(box) || (with_slopes && holds_by_slopes(box))) continue;
         const auto split = widest(box);
         if (!split) return false;
         const double middle = cut(box[*split]);
@@ -157,7 +159,7 @@ Interval BoxProof::bounds(std::size_t root, const Box& box)
     return hull(ranges);
 }
 
-Interval BoxProof::range(std::size_t root)
+Interval BoxProof::range(std::size_t root, std::size_t halvings)
 {
     // The hull of the halves is never wider than the whole. Each turn halves the box that holds
     // the hull open, first at one end, then at the other.
@@ -166,7 +168,7 @@ Interval BoxProof::range(std::size_t root)
         Interval range;
     };
     std::vector<Part> parts{{whole_, bounds(root, whole_)}};
-    const std::size_t turns = effort_.times(cost() * range_share, most_turns + 1) - 1;
+    const std::size_t turns = effort_.times(16 * cost(), halvings + 1) - 1;
     for (std::size_t turn = 0; turn < turns; ++turn) {
         const auto extreme = turn % 2 == 0
                                  ? std::ranges::max_element(

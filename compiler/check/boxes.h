@@ -27,11 +27,16 @@ public:
     /// outward, so a bound that is exact in the reals may be missed by a few units.
     BoxProof(const Flat& flat, std::vector<Requirement> claims, double slack, Effort& effort);
 
-    /// The box is halved at most some thousand times; false means proved or not known.
+    /// False means that it is not known. The box is halved at most some thousand times.
     bool prove();
+    /// The same with little effort: what is not obvious is not known.
+    bool prove_quickly();
 
-    /// The range of a root over the declared ranges, as tight as slopes and some halving make it.
-    Interval range(std::size_t root);
+    /// The range of a root over the declared ranges, as tight as slopes make it, and halving the
+    /// box so many times.
+    Interval range(std::size_t root, std::size_t halvings);
+    /// What one look at one box costs.
+    std::size_t cost() const { return flat_.function.graph.size() * (1 + varied_.size()); }
 
 private:
     bool holds(const Box& box);
@@ -40,8 +45,7 @@ private:
     /// One bound of one component, from the face of the box where the slopes say it is attained.
     double bound(std::size_t root, std::size_t component, const Box& box, bool low);
     Analysis* slopes(std::size_t root);
-    /// What one look at one box costs.
-    std::size_t cost() const { return flat_.function.graph.size() * (1 + varied_.size()); }
+    bool prove(std::size_t most, bool with_slopes);
     std::optional<std::size_t> widest(const Box& box) const;
 
     Flat flat_;

@@ -118,7 +118,7 @@ std::vector<ExprId> operands_of(const Frame& frame, ExprId id)
 }  // namespace
 
 Flat flatten(const std::vector<ir::Function>& functions, const ir::Function& draft,
-             std::span<const ExprId> roots, const std::vector<Fact>& given)
+             std::span<const ExprId> roots, const std::vector<Fact>& given, Calls calls)
 {
     Flat flat;
     flat.function.name = draft.name;
@@ -146,13 +146,27 @@ Flat flatten(const std::vector<ir::Function>& functions, const ir::Function& dra
         const ExprId id{frame.next++};
         if (!frame.wanted[id.index]) continue;
         const ir::Expr& expr = from[id];
-        const std::vector<ExprId> operands = operands_of(frame, id);
         if (expr.op == Op::call) {
             const ir::Function& callee = functions[expr.aux];
+            if (calls == Calls::as_inputs) {
+                const auto index = static_cast<std::uint32_t>(flat.function.inputs.size());
+                flat.function.inputs.push_back({callee.name,
+                                                expr.type,
+                                                callee.quantity,
+                                                callee.range,
+                                                ir::Origin::argument,
+                                                index,
+                                                {}});
+                frame.moved[id.index] = clamped(to, to.input(index, expr.type), bounds[id]);
+                continue;
+            }
+            std::vector<ExprId> arguments = operands_of(frame, id);
             frames.push_back({&callee, live(callee.graph, std::span{&callee.result, 1}),
-                              std::vector<ExprId>(callee.graph.size()), operands, 0, id});
+                              std::vector<ExprId>(callee.graph.size()), std::move(arguments), 0,
+                              id});
             continue;
         }
+        const std::vector<ExprId> operands = operands_of(frame, id);
         const bool outermost = frames.size() == 1;
         ExprId moved = expr.op == Op::input && !outermost ? frame.inputs[expr.aux]
                                                           : to.copy(from, id, operands);

@@ -18,12 +18,17 @@ struct Flat {
     std::vector<ir::ExprId> roots;
 };
 
-/// What `roots` of a draft mean, calls replaced by the bodies of their callees. The result of each
-/// call is clamped to the range that was proved of its callee: over the reals that changes
-/// nothing, and an interval analysis learns from it. Where `given` bounds an expression by a
-/// literal, the expression is clamped likewise.
+/// What stands for a call.
+enum class Calls {
+    taken_in,   ///< the body of the callee, clamped to the range that was proved of it: over the
+                ///< reals that changes nothing, and an interval analysis learns from it
+    as_inputs,  ///< an input of its own with that range: far less work, and less is known
+};
+
+/// What `roots` of a draft mean, without calls. Where `given` bounds an expression by a literal,
+/// the expression is clamped to that.
 Flat flatten(const std::vector<ir::Function>& functions, const ir::Function& draft,
-             std::span<const ir::ExprId> roots, const std::vector<Fact>& given);
+             std::span<const ir::ExprId> roots, const std::vector<Fact>& given, Calls calls);
 
 /// The same over vectors: in place of its geometry fields the function takes l, v and n (and x, y),
 /// from which the fields are computed.

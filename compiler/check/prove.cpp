@@ -18,6 +18,12 @@ using ir::ExprId;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// For a message, a range is worth this much.
+constexpr std::size_t most_halvings = 64;
+
+/// For a result, slopes are worth their price where the body is about this small.
+constexpr std::size_t small_body = 400;
+
 /// A declared range is met up to the rounding of the analysis. Domains have no such room: what is
 /// outside of them has no value.
 double slack_of(Obligation::Kind kind)
@@ -36,16 +42,7 @@ public:
 
     bool holds(const Obligation& obligation) const
     {
-        for (const Claim& claim : obligation.any_of) {
-            if (satisfies(ranges_of(claim.subject), claim.requirement, slack_of(obligation.kind)))
-                return true;
-            if (claim.requirement.nonzero && said_nonzero(claim.subject, obligation.given))
-                return true;
-        }
-        BoxProof proof{
-            flatten(functions_, draft_.function, subjects(obligation), sharpened(obligation.given)),
-            requirements(obligation), slack_of(obligation.kind), effort_};
-        return proof.prove();
+        return obvious(obligation) || proof_of(obligation).prove();
     }
 
     bool excludes_zero(const NamedLimit& limit) const
@@ -54,7 +51,7 @@ public:
         obligation.kind = Obligation::Kind::divisor;
         obligation.any_of = {{limit.divisor, {.nonzero = true}}};
         obligation.given = limit.given;
-        return holds(obligation);
+        return obvious(obligation) || proof_of(obligation).prove_quickly();
     }
 
     Finding investigate(const Obligation& obligation) const
@@ -62,9 +59,10 @@ public:
         Finding finding;
         finding.obligation = obligation;
         std::vector<ExprId> roots = subjects(obligation);
-        BoxProof ranges{flatten(functions_, draft_.function, roots, sharpened(obligation.given)),
-                        requirements(obligation), 0, effort_};
-        for (std::size_t i = 0; i < roots.size(); ++i) finding.ranges.push_back(ranges.range(i));
+        BoxProof ranges{taken_in(roots, sharpened(obligation.given)), requirements(obligation), 0,
+                        effort_};
+        for (std::size_t i = 0; i < roots.size(); ++i)
+            finding.ranges.push_back(ranges.range(i, most_halvings));
 
         Search search;
         search.claims = requirements(obligation);
@@ -73,10 +71,10 @@ public:
             roots.push_back(fact.left);
             roots.push_back(fact.right);
         }
-        search.flat = flatten(functions_, draft_.function, roots, {});
+        search.flat = taken_in(roots, {});
         finding.witness = find_witness(search);
 
-        const Analysis analysis{flatten(functions_, draft_.function, subjects(obligation), {})};
+        const Analysis analysis{taken_in(subjects(obligation), {})};
         const ir::Input* last = nullptr;
         for (std::size_t i = 0; i < analysis.inputs().size(); ++i) {
             const ir::Input& input = draft_.function.inputs[analysis.inputs()[i].input];
@@ -93,9 +91,7 @@ public:
     {
         const ExprId result = draft_.function.result;
         if (graph_[result].type == ir::Type::boolean) return {0, 1};
-        // What has a declared range was measured against it; a tighter one is of little use.
-        const bool known = draft_.function.declared_range.has_value();
-        const Interval inferred = known ? hull(ranges_of(result)) : infer(result);
+        const Interval inferred = infer(result);
         ir::Range range{-infinity, infinity};
         if (inferred.low <= inferred.high) range = {inferred.low, inferred.high};
         if (const auto& declared = draft_.function.declared_range) {
@@ -108,13 +104,42 @@ public:
     }
 
 private:
-    Interval infer(ExprId result) const
+    /// The ranges of the subjects alone say so.
+    bool obvious(const Obligation& obligation) const
     {
-        const Flat flat = flatten(functions_, draft_.function, {&result, 1}, {});
-        return BoxProof{flat, {Requirement{}}, 0, effort_}.range(0);
+        return std::ranges::any_of(obligation.any_of, [&](const Claim& claim) {
+            return satisfies(ranges_of(claim.subject), claim.requirement,
+                             slack_of(obligation.kind)) ||
+                   (claim.requirement.nonzero && said_nonzero(claim.subject, obligation.given));
+        });
     }
 
-    /// The ranges of everything that is asked about, in one run.
+    BoxProof proof_of(const Obligation& obligation) const
+    {
+        return {taken_in(subjects(obligation), sharpened(obligation.given)),
+                requirements(obligation), slack_of(obligation.kind), effort_};
+    }
+
+    /// The range of the result, calls known by their range. Where the plain one is wider than what
+    /// the corners of the inputs give, slopes may make it tighter.
+    Interval infer(ExprId result) const
+    {
+        const Interval plain = hull(ranges_of(result));
+        if (result_at_corners_ == plain || draft_.function.declared_range) return plain;
+        BoxProof proof{flatten(functions_, draft_.function, {&result, 1}, {}, Calls::as_inputs),
+                       {Requirement{}},
+                       0,
+                       effort_};
+        return proof.cost() < small_body ? proof.range(0, 0) : plain;
+    }
+
+    Flat taken_in(const std::vector<ExprId>& roots, const std::vector<Fact>& given) const
+    {
+        return flatten(functions_, draft_.function, roots, given, Calls::taken_in);
+    }
+
+    /// The ranges of everything that is asked about, in one run. Calls are known by their range
+    /// here, which is nearly always enough; what is not proved so is looked at with care.
     void measure()
     {
         std::vector<ExprId> roots;
@@ -137,10 +162,31 @@ private:
                 add(fact.right);
             }
         }
+        if (draft_.function.result.valid()) add(draft_.function.result);
         if (roots.empty()) return;
-        Analysis analysis{flatten(functions_, draft_.function, roots, {})};
+        Analysis analysis{flatten(functions_, draft_.function, roots, {}, Calls::as_inputs)};
         const auto& ranges = analysis.ranges(analysis.declared());
         for (std::size_t i = 0; i < roots.size(); ++i) known_[roots[i].index] = ranges[i];
+        if (draft_.function.result.valid()) look_at_corners(analysis, roots);
+    }
+
+    /// Most ranges of results are attained where all inputs are at an end.
+    void look_at_corners(Analysis& analysis, const std::vector<ExprId>& roots)
+    {
+        const auto found = std::ranges::find(roots, draft_.function.result);
+        const Box declared = analysis.declared();
+        constexpr std::size_t corners = 16;
+        result_at_corners_ = {infinity, -infinity};
+        for (std::size_t corner = 0; corner < corners; ++corner) {
+            std::vector<double> point;
+            for (std::size_t i = 0; i < declared.size(); ++i)
+                point.push_back((corner >> (i % 4)) % 2 == 0 ? declared[i].low : declared[i].high);
+            const auto& values = analysis.values(point);
+            for (const double value : values[static_cast<std::size_t>(found - roots.begin())]) {
+                result_at_corners_.low = std::min(result_at_corners_.low, value);
+                result_at_corners_.high = std::max(result_at_corners_.high, value);
+            }
+        }
     }
 
     const std::vector<Interval>& ranges_of(ExprId id) const { return known_[id.index]; }
@@ -189,6 +235,7 @@ private:
     const Draft& draft_;
     const ir::Graph& graph_;
     Effort& effort_;
+    Interval result_at_corners_;
     std::vector<std::vector<Interval>> known_;  ///< per expression of the draft, where asked for
 };
 

@@ -78,7 +78,7 @@ TEST_CASE("slopes over boxes contain the slopes of chords", "[check][derivative]
             body);
         CAPTURE(checked.errors());
         const ir::Function& function = checked.function("f");
-        const Flat flat = flatten({}, function, {&function.result, 1}, {});
+        const Flat flat = flatten({}, function, {&function.result, 1}, {}, Calls::taken_in);
         Analysis values{flat};
         std::vector<ScalarInput> inputs;
         for (std::uint32_t i = 0; i < 4; ++i) inputs.push_back({i, 0});
@@ -120,7 +120,7 @@ TEST_CASE("a slope that has one sign is seen to have it", "[check][derivative]")
     const auto slope = [](const std::string& body, std::uint32_t input) {
         const auto checked = check_text("/// f\nterm f(x: unit, y: unit) = " + body);
         const ir::Function& function = checked.function("f");
-        const Flat flat = flatten({}, function, {&function.result, 1}, {});
+        const Flat flat = flatten({}, function, {&function.result, 1}, {}, Calls::taken_in);
         Analysis slopes{differentiate(flat, flat.roots[0], {{input, 0}})};
         return slopes.ranges(slopes.declared())[0][0];
     };

@@ -16,7 +16,7 @@ std::optional<Witness> hunt(const std::string& term, const Requirement& claim)
     CAPTURE(term, checked.errors());
     const ir::Function& function = checked.function("f");
     Search search;
-    search.flat = flatten({}, function, {&function.result, 1}, {});
+    search.flat = flatten({}, function, {&function.result, 1}, {}, Calls::taken_in);
     search.claims = {claim};
     return find_witness(search);
 }
