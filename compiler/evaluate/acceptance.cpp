@@ -11,6 +11,7 @@ namespace lobe::evaluate {
 namespace {
 
 constexpr Rules float32_rules{.digits = 24,
+                              .epsilon = 0x1p-23,
                               .largest = 0x1.fffffep127,
                               .least_normal = 0x1p-126,
                               .largest_divisor = 0x1p126,
@@ -20,6 +21,7 @@ constexpr Rules float32_rules{.digits = 24,
                               .atan2_units = 4096};
 
 constexpr Rules float16_rules{.digits = 11,
+                              .epsilon = 0x1p-10,
                               .largest = 65504,
                               .least_normal = 0x1p-14,
                               .largest_divisor = 0x1p14,
@@ -49,6 +51,7 @@ public:
     explicit Device(const Rules& rules) : rules_{rules} {}
 
     Acceptance flushed(Acceptance x) const;
+    Acceptance admitted(const Acceptance& x) const { return rounded({x.low, x.high}, x.undefined); }
     Acceptance add(const Acceptance& a, const Acceptance& b) const;
     Acceptance subtract(const Acceptance& a, const Acceptance& b) const;
     Acceptance multiply(const Acceptance& a, const Acceptance& b) const;
@@ -56,9 +59,9 @@ public:
     Acceptance divide(const Acceptance& a, const Acceptance& b) const;
     Acceptance inverse_square_root(const Acceptance& x) const;
     Acceptance square_root(const Acceptance& x) const;
-    Acceptance exponential(const Acceptance& x, Interval exact) const;
+    Acceptance exponential(const Acceptance& x, double (*function)(double)) const;
     Interval logarithm_reads(const Acceptance& x) const;
-    Acceptance logarithm(const Acceptance& x, Interval exact) const;
+    Acceptance logarithm(const Acceptance& x, double (*function)(double)) const;
     Acceptance power(const Acceptance& x, const Acceptance& y) const;
     Acceptance guarded_power(const Acceptance& x, const Acceptance& y) const;
     Acceptance wave(const Acceptance& x, Interval exact) const;
@@ -85,29 +88,32 @@ private:
     Acceptance within(double low, double high, bool undefined) const;
     Acceptance within_units(Interval exact, double low_units, double high_units,
                             bool undefined) const;
-    /// Relative size of one rounding in either direction.
-    double epsilon() const { return std::ldexp(1.0, 1 - rules_.digits); }
+    double epsilon() const { return rules_.epsilon; }
     /// A component is no longer than its vector, but for three roundings or two functions.
     double longest() const { return 1 + 8 * epsilon(); }
 
     const Rules& rules_;
 };
 
+/// The least float that is not below `x`. Without branches: whether a bound rounds up is a toss.
+double round_up_to_float(double x)
+{
+    const auto nearest = static_cast<float>(x);
+    // As integers in the order of the floats, the next float is the next integer.
+    constexpr std::int32_t magnitude = 0x7fffffff;
+    const auto bits = std::bit_cast<std::int32_t>(nearest);
+    const std::int32_t ordered = bits ^ ((bits >> 31) & magnitude);
+    const std::int32_t next = ordered + (static_cast<double>(nearest) < x ? 1 : 0);
+    return static_cast<double>(std::bit_cast<float>(next ^ ((next >> 31) & magnitude)));
+}
+
 /// The least number of the format that is not below `x`.
 double Device::round_up(double x) const
 {
+    if (rules_.digits == 24) return round_up_to_float(x);
     const double size = std::abs(x);
-    if (!(size <= rules_.largest)) {
-        if (x > 0) return infinity;
-        return -rules_.largest;  // rounding toward zero stays finite
-    }
-    if (rules_.digits == 24) {
-        const auto nearest = static_cast<float>(x);
-        if (static_cast<double>(nearest) >= x) return static_cast<double>(nearest);
-        if (nearest == 0) return 0x1p-149;
-        const auto bits = std::bit_cast<std::int32_t>(nearest);
-        return static_cast<double>(std::bit_cast<float>(bits + (nearest > 0 ? 1 : -1)));
-    }
+    // Beyond the largest number: up to infinity, or toward zero, which stays finite.
+    if (!(size <= rules_.largest)) return x > 0 ? infinity : -rules_.largest;
     const double last = std::max(size, rules_.least_normal);
     const double step =
         std::bit_cast<double>(std::bit_cast<std::uint64_t>(last) & 0x7ff0000000000000U) * epsilon();
@@ -159,11 +165,20 @@ Acceptance Device::within_units(Interval exact, double low_units, double high_un
                   high == infinity ? high : high + widen(high, high_units), undefined);
 }
 
+// The ends of operands are numbers of the format, so their products are exact in double, and a
+// quotient or root is off by much less than what the table adds.
+
+constexpr double slack = 0x1p-20;  // units
+
+/// An infinite end times zero is zero.
+double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
+
 Acceptance Device::add(const Acceptance& a, const Acceptance& b) const
 {
     const bool opposite =
         (a.high == infinity && b.low == -infinity) || (a.low == -infinity && b.high == infinity);
-    return rounded(evaluate::add(bounds(a), bounds(b)), a.undefined || b.undefined || opposite);
+    return rounded({add_down(a.low, b.low), add_up(a.high, b.high)},
+                   a.undefined || b.undefined || opposite);
 }
 
 Acceptance Device::subtract(const Acceptance& a, const Acceptance& b) const
@@ -175,12 +190,18 @@ Acceptance Device::multiply(const Acceptance& a, const Acceptance& b) const
 {
     const bool vague =
         (reaches_infinity(a) && reaches(b, 0)) || (reaches_infinity(b) && reaches(a, 0));
-    return rounded(evaluate::multiply(bounds(a), bounds(b)), a.undefined || b.undefined || vague);
+    const bool undefined = a.undefined || b.undefined || vague;
+    if (a.low >= 0 && b.low >= 0)
+        return rounded({product(a.low, b.low), product(a.high, b.high)}, undefined);
+    const auto [low, high] = std::minmax({product(a.low, b.low), product(a.low, b.high),
+                                          product(a.high, b.low), product(a.high, b.high)});
+    return rounded({low, high}, undefined);
 }
 
 Acceptance Device::square(const Acceptance& x) const
 {
-    return rounded(evaluate::square(bounds(x)), x.undefined);
+    const Interval size = evaluate::absolute(bounds(x));
+    return rounded({size.low * size.low, size.high * size.high}, x.undefined);
 }
 
 Acceptance Device::divide(const Acceptance& a, const Acceptance& b) const
@@ -189,14 +210,19 @@ Acceptance Device::divide(const Acceptance& a, const Acceptance& b) const
     const double least = 1 / largest;
     const bool promised =
         (b.low >= least && b.high <= largest) || (b.high <= -least && b.low >= -largest);
-    return within_units(evaluate::divide(bounds(a), bounds(b)), 2.5, 2.5,
-                        a.undefined || b.undefined || !promised || reaches_infinity(a));
+    const bool undefined = a.undefined || b.undefined || !promised || reaches_infinity(a);
+    const double units = 2.5 + slack;
+    if (a.low >= 0 && b.low > 0)
+        return within_units({a.low / b.high, a.high / b.low}, units, units, undefined);
+    return within_units(evaluate::divide(bounds(a), bounds(b)), units, units, undefined);
 }
 
 Acceptance Device::inverse_square_root(const Acceptance& x) const
 {
-    const Acceptance result = within_units(evaluate::inverse_square_root(bounds(x)), 2, 2,
-                                           x.undefined || x.low <= 0 || reaches_infinity(x));
+    const Interval exact{x.high > 0 ? 1 / std::sqrt(x.high) : infinity,
+                         x.low > 0 ? 1 / std::sqrt(x.low) : infinity};
+    const Acceptance result =
+        within_units(exact, 2 + slack, 2 + slack, x.undefined || x.low <= 0 || reaches_infinity(x));
     return {std::max(result.low, 0.0), result.high, result.undefined};
 }
 
@@ -211,13 +237,21 @@ Acceptance Device::square_root(const Acceptance& x) const
     return result;
 }
 
+/// The values of an increasing function at both ends.
+Interval ends(Interval x, double (*function)(double))
+{
+    const double low = function(x.low);
+    return {low, x.high == x.low ? low : function(x.high)};
+}
+
 /// 2^x or e^x. Not negative: no device returns such a power.
-Acceptance Device::exponential(const Acceptance& x, Interval exact) const
+Acceptance Device::exponential(const Acceptance& x, double (*function)(double)) const
 {
     const auto units = [&](double end) {
-        return rules_.exp2_units + 2 * std::min(std::abs(end), 4096.0);
+        return rules_.exp2_units + 2 * std::min(std::abs(end), 4096.0) + slack;
     };
-    const Acceptance result = within_units(exact, units(x.low), units(x.high), x.undefined);
+    const Acceptance result =
+        within_units(ends(bounds(x), function), units(x.low), units(x.high), x.undefined);
     return {std::max(result.low, 0.0), result.high, result.undefined};
 }
 
@@ -231,10 +265,11 @@ Interval Device::logarithm_reads(const Acceptance& x) const
 }
 
 /// log2 x or log x. Below 0 undefined; so is 0, where only `power` may look.
-Acceptance Device::logarithm(const Acceptance& x, Interval exact) const
+Acceptance Device::logarithm(const Acceptance& x, double (*function)(double)) const
 {
     const bool undefined = x.undefined || x.low <= 0 || reaches_infinity(x);
-    const Acceptance outside = within_units(exact, 3, 3, undefined);
+    const Interval exact = ends(logarithm_reads(x), function);
+    const Acceptance outside = within_units(exact, 3 + slack, 3 + slack, undefined);
     if (x.high < 0.5 || x.low > 2) return outside;
     const Acceptance inside =
         within(exact.low - rules_.log2_error, exact.high + rules_.log2_error, undefined);
@@ -246,11 +281,11 @@ Acceptance Device::power(const Acceptance& x, const Acceptance& y) const
 {
     const bool undefined = x.undefined || y.undefined || x.low < 0 || (x.low <= 0 && y.low <= 0);
     if (x.high <= 0) return {0, undefined ? infinity : 0, undefined};
-    Acceptance log = logarithm(x, evaluate::log2(logarithm_reads(x)));
+    Acceptance log = logarithm(x, log2_one);
     // log2 of what may be 0 is as low as can be: 2^(y log2 0) is 0.
     if (x.low <= 0) log.low = -infinity;
     const Acceptance exponent = multiply(y, log);
-    Acceptance result = exponential(exponent, evaluate::exp2(bounds(exponent)));
+    Acceptance result = exponential(exponent, exp2_one);
     result.undefined = undefined;
     return result;
 }
@@ -364,7 +399,13 @@ Acceptance Device::lerp(const Acceptance& a, const Acceptance& b, const Acceptan
     // Wide operands forget that both a's are one number. Over the reals the extremes are at the
     // corners; each formula adds at most four roundings of its largest term, and the flushing
     // of its terms.
-    const Interval exact = evaluate::lerp(bounds(a), bounds(b), bounds(t));
+    Interval exact{infinity, -infinity};
+    for (const double from : {a.low, a.high})
+        for (const double to : {b.low, b.high})
+            for (const double weight : {t.low, t.high}) {
+                const double corner = from + (to - from) * weight;
+                exact = {std::min(exact.low, corner), std::max(exact.high, corner)};
+            }
     const auto size = [](const Acceptance& x) {
         return std::max(std::abs(x.low), std::abs(x.high));
     };
@@ -452,7 +493,7 @@ const Rules& rules(Precision precision)
     return precision == Precision::float32 ? float32_rules : float16_rules;
 }
 
-Acceptance admit(const Rules& rules, Acceptance x) { return Device{rules}.flushed(x); }
+Acceptance admit(const Rules& rules, Acceptance x) { return Device{rules}.admitted(x); }
 
 Acceptance apply(const Rules& rules, TapeOp op, const Acceptance& a, const Acceptance& b,
                  const Acceptance& c, const Acceptance& d)
@@ -476,7 +517,9 @@ Acceptance apply(const Rules& rules, TapeOp op, const Acceptance& a, const Accep
     case TapeOp::saturate:
     case TapeOp::logical_not: return exact1();
     case TapeOp::minimum:
+        return {std::min(a.low, b.low), std::min(a.high, b.high), a.undefined || b.undefined};
     case TapeOp::maximum:
+        return {std::max(a.low, b.low), std::max(a.high, b.high), a.undefined || b.undefined};
     case TapeOp::step:
     case TapeOp::less:
     case TapeOp::less_equal:
@@ -491,10 +534,10 @@ Acceptance apply(const Rules& rules, TapeOp op, const Acceptance& a, const Accep
     case TapeOp::square: return device.square(a);
     case TapeOp::square_root: return device.square_root(a);
     case TapeOp::inverse_square_root: return device.inverse_square_root(a);
-    case TapeOp::exp2: return device.exponential(a, exp2(bounds(a)));
-    case TapeOp::exp: return device.exponential(a, exp(bounds(a)));
-    case TapeOp::log2: return device.logarithm(a, log2(device.logarithm_reads(a)));
-    case TapeOp::log: return device.logarithm(a, log(device.logarithm_reads(a)));
+    case TapeOp::exp2: return device.exponential(a, exp2_one);
+    case TapeOp::exp: return device.exponential(a, exp_one);
+    case TapeOp::log2: return device.logarithm(a, log2_one);
+    case TapeOp::log: return device.logarithm(a, log_one);
     case TapeOp::sine: return device.wave(a, sine(bounds(a)));
     case TapeOp::cosine: return device.wave(a, cosine(bounds(a)));
     case TapeOp::tangent: return device.tangent(a);

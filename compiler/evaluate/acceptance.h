@@ -13,6 +13,7 @@ namespace lobe::evaluate {
 /// The floating-point format of a precision, and its column of the table.
 struct Rules {
     int digits;      ///< of the significand, with the hidden one
+    double epsilon;  ///< 2^(1 - digits): one rounding in either direction, relative
     double largest;  ///< finite number
     double least_normal;
     double largest_divisor;  ///< division promises nothing outside [1 / this, this]
@@ -24,7 +25,8 @@ struct Rules {
 
 const Rules& rules(Precision precision);
 
-/// What a device may read for this number: itself, or 0 where it is denormal.
+/// What a device may read for this number: itself, or 0 where it is denormal. Ends that are no
+/// numbers of the format move outward.
 Acceptance admit(const Rules& rules, Acceptance x);
 
 /// Any operation of the tape. Operands past the arity are not read.
