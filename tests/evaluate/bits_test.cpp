@@ -80,6 +80,30 @@ void compare_tables(const Table& expected, const Table& got)
         }
 }
 
+/// Joined operations read a constant operand once, so here every operand is one number.
+void compare_joined(const FusedTable& expected, const FusedTable& got)
+{
+    std::mt19937_64 random{12};
+    const auto numbers = hostile_numbers<float>(random, 400);
+    std::array<std::array<float, block_lanes>, 4> operands{};
+    for (std::size_t i = 0; i + 4 <= numbers.size(); i += 4) {
+        for (std::size_t k = 0; k < 4; ++k) operands[k].fill(numbers[i + k]);
+        for (std::size_t op = 0; op < expected.size(); ++op) {
+            std::array<float, block_lanes> first{};
+            std::array<float, block_lanes> second{};
+            for (const auto& [table, result] :
+                 {std::pair{&expected, &first}, std::pair{&got, &second}})
+                (*table)[op](result->data(), operands[0].data(), operands[1].data(),
+                             operands[2].data(), operands[3].data());
+            if (std::isnan(first[0]) && std::isnan(second[0])) continue;
+            if (std::bit_cast<std::uint32_t>(first[0]) != std::bit_cast<std::uint32_t>(second[0]))
+                FAIL("kernel " << op << " of " << numbers[i] << ", " << numbers[i + 1] << ", "
+                               << numbers[i + 2] << ", " << numbers[i + 3] << ": " << first[0]
+                               << " and " << second[0]);
+        }
+    }
+}
+
 /// FNV-1a over the bits of every result that is a number; NaNs count as one value.
 template <class Number>
 void mix(std::uint64_t& hash, Number value)
@@ -116,7 +140,7 @@ TEST_CASE("every instruction set computes the same bits")
         const auto base = InstructionSet::baseline;
         compare_tables<float>(kernels<float>(base), kernels<float>(set));
         compare_tables<double>(kernels<double>(base), kernels<double>(set));
-        compare_tables<float>(fused_kernels(base), fused_kernels(set));
+        compare_joined(fused_kernels(base), fused_kernels(set));
     }
 }
 
