@@ -72,6 +72,31 @@ const std::vector<std::vector<double>>& Analysis::values(const std::vector<doubl
     return values_;
 }
 
+Interval Analysis::extremes(std::size_t root, const std::vector<std::vector<double>>& points)
+{
+    std::vector<std::vector<double>> inputs_by_column(inputs().size());
+    for (const auto& point : points)
+        for (std::size_t i = 0; i < point.size(); ++i) inputs_by_column[i].push_back(point[i]);
+    std::vector<const double*> columns;
+    for (const auto& column : inputs_by_column) columns.push_back(column.data());
+    std::vector<std::vector<double>> results(traced_.tape.outputs.size(),
+                                             std::vector<double>(points.size()));
+    std::vector<double*> outputs;
+    for (auto& column : results) outputs.push_back(column.data());
+    evaluate::run(traced_.tape, evaluate::Columns<double>{columns},
+                  evaluate::Results<double>{outputs}, points.size());
+
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < root; ++i) first += components_[i];
+    Interval result{HUGE_VAL, -HUGE_VAL};
+    for (std::size_t k = first; k < first + components_[root]; ++k)
+        for (const double value : results[k]) {
+            result.low = std::min(result.low, value);
+            result.high = std::max(result.high, value);
+        }
+    return result;
+}
+
 namespace {
 
 bool inside(double low, double high, const Requirement& wanted, double slack)

@@ -30,6 +30,9 @@ public:
     /// Per root, its components at a point, in double.
     const std::vector<std::vector<double>>& values(const std::vector<double>& point);
 
+    /// The least and greatest component of a root over several points, in double.
+    Interval extremes(std::size_t root, const std::vector<std::vector<double>>& points);
+
     /// Whether any root depends on this input.
     bool depends_on(std::size_t input) const { return used_[input]; }
 

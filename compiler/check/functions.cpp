@@ -153,16 +153,13 @@ std::vector<Lowered> lower_model(Program& program, const syntax::Item& item,
         }
         lets.report_to(diagnostics);
         Value value = lets.lower(output.value);
-        if (value.good && value.type.structure == Structure::none && value.type == boolean_type) {
+        if (value.good && !is_number(value.type) && value.type != color_type) {
             diagnostics.report(
                 {.code = Code::type_mismatch,
-                 .message = "an output is light, a number or a color, and this is a condition",
+                 .message = fmt::format("an output is a number or a color, and this is {}",
+                                        describe(value.type)),
                  .primary = {file.tree[output.value].span, ""}});
             value = {};
-        }
-        if (value.good && value.type.structure != Structure::none) {
-            value = lets.convert(value, number_type, file.tree[output.value].span,
-                                 fmt::format("the output `{}`", output.name.text), std::nullopt);
         }
         if (!signature.broken) set_result(lowered, value);
 

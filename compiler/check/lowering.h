@@ -1,8 +1,9 @@
 // From the expressions of one body to the graph of one function.
 //
-// `Lowering` is split by what is lowered: names, members and choices in lowering.cpp, operators in
-// operators.cpp, calls in calls.cpp. Every operation is typed here, in the words of the author;
-// what must be true of its operands is noted in the draft and proved later.
+// `Lowering` is split by what is lowered: names and choices in lowering.cpp, members in
+// members.cpp, operators in operators.cpp, calls in calls.cpp. Every operation is typed here, in
+// the words of the author; what must be true of its operands is noted in the draft and proved
+// later.
 #pragma once
 
 #include "check/builtins.h"
@@ -67,14 +68,16 @@ private:
     Value lower_name(const syntax::Name& name, const Span& span);
     Value lower_declared(const std::string& name, Declared& declared, const Span& span);
     void report_unknown_name(const std::string& name, const Span& span);
+    Value lower_conditional(const syntax::Conditional& conditional, const Span& span);
+    std::vector<Fact> facts() const;
+    void collect_facts(syntax::ExpressionId condition, bool holds, std::vector<Fact>& result) const;
+
+    // members.cpp
     std::optional<Fix> field_fix(std::string_view name, const Span& span,
                                  std::vector<std::string>& helps) const;
     Value lower_member(const syntax::Member& member, const Span& span);
     Value unknown_member(const syntax::Member& member, const ValueType& type,
                          const std::vector<std::string>& known);
-    Value lower_conditional(const syntax::Conditional& conditional, const Span& span);
-    std::vector<Fact> facts() const;
-    void collect_facts(syntax::ExpressionId condition, bool holds, std::vector<Fact>& result) const;
 
     // operators.cpp
     Value lower_unary(const syntax::Unary& unary, const Span& span);

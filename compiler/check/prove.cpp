@@ -24,13 +24,9 @@ constexpr std::size_t most_halvings = 64;
 /// For a result, slopes are worth their price where the body is about this small.
 constexpr std::size_t small_body = 400;
 
-/// A declared range is met up to the rounding of the analysis. Domains have no such room: what is
-/// outside of them has no value.
-double slack_of(Obligation::Kind kind)
-{
-    const bool declared = kind == Obligation::Kind::argument || kind == Obligation::Kind::result;
-    return declared ? 0x1p-40 : 0;
-}
+/// Ends are met up to the rounding of the analysis: a part of the greater finite one. A lone end at
+/// 0 has no such room, and neither has an open one.
+constexpr double slack = 0x1p-40;
 
 class Proving {
 public:
@@ -108,8 +104,7 @@ private:
     bool obvious(const Obligation& obligation) const
     {
         return std::ranges::any_of(obligation.any_of, [&](const Claim& claim) {
-            return satisfies(ranges_of(claim.subject), claim.requirement,
-                             slack_of(obligation.kind)) ||
+            return satisfies(ranges_of(claim.subject), claim.requirement, slack) ||
                    (claim.requirement.nonzero && said_nonzero(claim.subject, obligation.given));
         });
     }
@@ -117,7 +112,7 @@ private:
     BoxProof proof_of(const Obligation& obligation) const
     {
         return {taken_in(subjects(obligation), sharpened(obligation.given)),
-                requirements(obligation), slack_of(obligation.kind), effort_};
+                requirements(obligation), slack, effort_};
     }
 
     /// The range of the result, calls known by their range. Where the plain one is wider than what
@@ -176,17 +171,13 @@ private:
         const auto found = std::ranges::find(roots, draft_.function.result);
         const Box declared = analysis.declared();
         constexpr std::size_t corners = 16;
-        result_at_corners_ = {infinity, -infinity};
-        for (std::size_t corner = 0; corner < corners; ++corner) {
-            std::vector<double> point;
+        std::vector<std::vector<double>> points(corners);
+        for (std::size_t corner = 0; corner < corners; ++corner)
             for (std::size_t i = 0; i < declared.size(); ++i)
-                point.push_back((corner >> (i % 4)) % 2 == 0 ? declared[i].low : declared[i].high);
-            const auto& values = analysis.values(point);
-            for (const double value : values[static_cast<std::size_t>(found - roots.begin())]) {
-                result_at_corners_.low = std::min(result_at_corners_.low, value);
-                result_at_corners_.high = std::max(result_at_corners_.high, value);
-            }
-        }
+                points[corner].push_back((corner >> (i % 4)) % 2 == 0 ? declared[i].low
+                                                                      : declared[i].high);
+        result_at_corners_ =
+            analysis.extremes(static_cast<std::size_t>(found - roots.begin()), points);
     }
 
     const std::vector<Interval>& ranges_of(ExprId id) const { return known_[id.index]; }
