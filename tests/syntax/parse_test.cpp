@@ -146,6 +146,21 @@ TEST_CASE("spans cover what was written")
           "term t() -> float = (a + b) * f(c) / d else 0");
 }
 
+TEST_CASE("spans name the source that was parsed")
+{
+    Sources sources;
+    sources.add("first.lobe", "module first\n");
+    const std::uint32_t index = sources.add("second.lobe", "module m\nterm t() = a @ b // c\n");
+    Diagnostics diagnostics;
+    const Tree tree = parse(sources, index, diagnostics);
+    CHECK(tree.source == index);
+    REQUIRE(diagnostics.all().size() == 1);
+    CHECK(diagnostics.all()[0].primary.span.source == index);
+    CHECK(tree.module->span.source == index);
+    for (const Expression& expression : tree.expressions) CHECK(expression.span.source == index);
+    CHECK(tree.items.at(0).span.source == index);
+}
+
 TEST_CASE("comments belong to what they stand before or behind")
 {
     const auto result = parsed(R"(// header
