@@ -1,4 +1,6 @@
 // The tape: what becomes of calls, vectors, shared and dead expressions.
+#include "evaluate/fixture.h"
+#include "evaluate/parallel.h"
 #include "evaluate/run.h"
 
 #include <catch2/catch.hpp>
@@ -20,14 +22,13 @@ Function function_of(std::string name, std::vector<Input> inputs)
     return function;
 }
 
-Input number(std::string name, double low = 0, double high = 1)
-{
-    return {std::move(name), Type::scalar, Quantity::number, {low, high}, Origin::argument, 0, {}};
-}
+Input number(std::string name) { return tests::number_input(std::move(name), 0, 1); }
 
-Input color(std::string name)
+Tape tape_of(Function function)
 {
-    return {std::move(name), Type::vec3, Quantity::color, {0, 1}, Origin::argument, 0, {}};
+    Module module;
+    module.functions.push_back(std::move(function));
+    return compile(module, module.functions[0]);
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ TEST_CASE("a call is inlined, and what it computes again is shared")
 TEST_CASE("a vector is its components, and scalars spread over it")
 {
     Module module;
-    Function tint = function_of("tint", {color("f0"), number("t")});
+    Function tint = function_of("tint", {tests::color_input("f0"), number("t")});
     Graph& graph = tint.graph;
     const ExprId f0 = graph.input(0, Type::vec3);
     const ExprId t = graph.input(1, Type::scalar);
@@ -81,4 +82,112 @@ TEST_CASE("a vector is its components, and scalars spread over it")
     CHECK(out[0][0] == 0.625F);
     CHECK(out[1][0] == 0.75F);
     CHECK(out[2][0] == 1);
+}
+
+TEST_CASE("a whole exponent becomes products from the highest square down")
+{
+    const auto dump_of = [](const char* exponent) {
+        Function f = function_of("f", {number("x")});
+        f.result =
+            f.graph.apply(Op::power, {f.graph.input(0, Type::scalar), f.graph.literal(exponent)});
+        return dump(tape_of(f));
+    };
+    CHECK(dump_of("0") == "s0 = input x\ns1 = 1\nf = s1\n");
+    CHECK(dump_of("1") == "s0 = input x\nf = s0\n");
+    CHECK(dump_of("5") == "s0 = input x\n"
+                          "s1 = square s0\n"
+                          "s1 = square s1\n"
+                          "s1 = multiply s0 s1\n"
+                          "f = s1\n");
+    CHECK(dump_of("7") == "s0 = input x\n"
+                          "s1 = square s0\n"
+                          "s2 = square s1\n"
+                          "s2 = multiply s1 s2\n"
+                          "s2 = multiply s0 s2\n"
+                          "f = s2\n");
+    CHECK(dump_of("-2") == "s0 = input x\n"
+                           "s1 = 1\n"
+                           "s2 = square s0\n"
+                           "s2 = divide s1 s2\n"
+                           "f = s2\n");
+    CHECK(dump_of("2.5") == "s0 = input x\n"
+                            "s1 = 2.5\n"
+                            "s2 = power s0 s1\n"
+                            "f = s2\n");
+}
+
+TEST_CASE("a vector's length and direction come from one sum of squares")
+{
+    Function f =
+        function_of("f", {{"v", Type::vec3, Quantity::vector, {-1, 1}, Origin::argument, 0, {}}});
+    const ExprId v = f.graph.input(0, Type::vec3);
+    f.result = f.graph.apply(
+        Op::multiply, {f.graph.apply(Op::guarded_normalize, {v}), f.graph.apply(Op::length, {v})});
+    CHECK(dump(tape_of(f)) == "s0 = input v.x\n"
+                              "s1 = input v.y\n"
+                              "s2 = input v.z\n"
+                              "s3 = square s0\n"
+                              "s4 = square s1\n"
+                              "s5 = square s2\n"
+                              "s5 = sum3 s3 s4 s5\n"
+                              "s4 = guarded_normalized s0 s5\n"
+                              "s3 = guarded_normalized s1 s5\n"
+                              "s6 = guarded_normalized s2 s5\n"
+                              "s5 = square_root s5\n"
+                              "s4 = multiply s4 s5\n"
+                              "s3 = multiply s3 s5\n"
+                              "s5 = multiply s6 s5\n"
+                              "f.x = s4\n"
+                              "f.y = s3\n"
+                              "f.z = s5\n");
+}
+
+TEST_CASE("a large whole exponent is a product only where its base is negative")
+{
+    const auto power = [](double x) {
+        Function f = function_of("f", {number("x")});
+        f.result =
+            f.graph.apply(Op::power, {f.graph.input(0, Type::scalar), f.graph.literal("101")});
+        return tests::evaluate_double(tape_of(f), {{x}})[0][0];
+    };
+    CHECK(power(-1) == -1);
+    CHECK(power(-0.5) == -0x1p-101);
+    CHECK(power(0.5) == 0x1p-101);
+    CHECK(power(0) == 0);
+}
+
+TEST_CASE("a long chain of calls needs no stack")
+{
+    Module module;
+    for (std::size_t i = 0; i < 20'000; ++i) {
+        Function f = function_of("f" + std::to_string(i), {number("x")});
+        const ExprId x = f.graph.input(0, Type::scalar);
+        f.result = i == 0 ? x : f.graph.call(FunctionId{i - 1}, Type::scalar, std::array{x});
+        module.functions.push_back(std::move(f));
+    }
+    CHECK(dump(compile(module, module.functions.back())) == "s0 = input x\nf19999 = s0\n");
+}
+
+TEST_CASE("threads change nothing")
+{
+    const Module module = tests::module_of(Op::guarded_power, 2);
+    const Tape tape = compile(module, module.functions[0]);
+    std::vector<float> x;
+    std::vector<float> y;
+    for (int i = 0; i < 100'003; ++i) {
+        x.push_back(static_cast<float>(i % 1009) / 1009);
+        y.push_back(static_cast<float>(i % 997) / 100);
+    }
+    const std::array<const float*, 2> in{x.data(), y.data()};
+    std::vector<float> alone(x.size());
+    std::vector<float> together(x.size());
+    const std::array<float*, 1> out_alone{alone.data()};
+    const std::array<float*, 1> out_together{together.data()};
+    run(tape, in, out_alone, x.size());
+    for (const unsigned threads : {1U, 3U, 8U}) {
+        std::fill(together.begin(), together.end(), -1.0F);
+        run_parallel<float>(tape, in, out_together, x.size(), threads);
+        CHECK(alone == together);
+    }
+    run_parallel<float>(tape, in, out_together, 0, 4);  // nothing to do
 }
