@@ -16,7 +16,8 @@ namespace lobe::evaluate {
 /// cache, and the cost of choosing an operation is spread over 128 results.
 constexpr std::size_t block_lanes = 128;
 
-/// Computes `block_lanes` results. `result` may be any of the operands.
+/// Computes `block_lanes` results. `result` may be any of the operands; operands past the arity are
+/// blocks too, and may be any.
 template <class Number>
 using Kernel = void (*)(Number* result, const Number* a, const Number* b, const Number* c,
                         const Number* d);

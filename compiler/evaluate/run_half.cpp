@@ -26,12 +26,17 @@ public:
               const double* d);
 
 private:
-    void simple(TapeOp op, double* result, const double* a, const double* b = nullptr,
-                const double* c = nullptr) const
+    /// Operands past the arity are read and ignored.
+    void simple(TapeOp op, double* result, const double* a, const double* b, const double* c) const
     {
-        table_[static_cast<std::size_t>(op)](result, a, b, c, nullptr);
+        table_[static_cast<std::size_t>(op)](result, a, b, c, a);
         round(result);
     }
+    void simple(TapeOp op, double* result, const double* a, const double* b) const
+    {
+        simple(op, result, a, b, a);
+    }
+    void simple(TapeOp op, double* result, const double* a) const { simple(op, result, a, a, a); }
     void smooth(double* result, const double* edge0, const double* edge1, const double* x);
 
     HalfMode mode_;

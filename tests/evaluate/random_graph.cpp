@@ -86,8 +86,10 @@ ExprId Builder::condition()
 {
     constexpr std::array compares{Op::less, Op::less_equal, Op::equal, Op::not_equal};
     const auto compare = [&] {
+        const Op op = compares[static_cast<std::size_t>(below(4))];
         const ExprId a = scalar().id;
-        return graph().apply(compares[static_cast<std::size_t>(below(4))], {a, scalar().id});
+        const ExprId b = scalar().id;
+        return graph().apply(op, {a, b});
     };
     const ExprId first = compare();
     switch (below(5)) {
