@@ -51,6 +51,11 @@ double to_half(const ir::Literal& literal)
 
 Interval to_interval(const ir::Literal& literal)
 {
+    if (const auto rounding = ir::rounding_of(literal)) {
+        const double value = literal.value;
+        return {*rounding > 0 ? std::nextafter(value, -HUGE_VAL) : value,
+                *rounding < 0 ? std::nextafter(value, HUGE_VAL) : value};
+    }
     return {bound(literal, MPFR_RNDD), bound(literal, MPFR_RNDU)};
 }
 

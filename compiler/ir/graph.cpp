@@ -1,10 +1,10 @@
 #include "ir/graph.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-
-#include <fmt/format.h>
 
 namespace lobe::ir {
 namespace {
@@ -21,17 +21,19 @@ constexpr std::array op_entries{
 #undef LOBE_OP
 };
 
+constexpr std::size_t most_operands = 3;  // of an operation whose type follows from them
+static_assert(std::ranges::all_of(op_entries, [](const OpEntry& op) {
+    return op.arity <= static_cast<int>(most_operands);
+}));
+
 const OpEntry& entry(Op op) { return op_entries[static_cast<std::size_t>(op)]; }
 
 std::size_t hash_node(Op op, Type type, std::uint32_t aux, std::span<const ExprId> operands)
 {
-    std::size_t h = static_cast<std::size_t>(op) * 31 + static_cast<std::size_t>(type);
-    const auto mix = [&h](std::size_t word) {
-        h ^= word + 0x9e3779b97f4a7c15ULL + (h << 6) + (h >> 2);
-    };
-    mix(aux);
-    for (const ExprId operand : operands) mix(operand.index);
-    return h;
+    std::size_t hash =
+        mix_hash(aux, static_cast<std::size_t>(op) * 31 + static_cast<std::size_t>(type));
+    for (const ExprId operand : operands) hash = mix_hash(hash, operand.index);
+    return hash;
 }
 
 }  // namespace
@@ -118,17 +120,62 @@ std::string canonical_number(std::string_view text)
     return fmt::format("{}{}{}e{}", sign, digits.substr(0, 1), rest, point - 1);
 }
 
-std::uint32_t Graph::intern_literal(std::string text, double value)
+std::optional<int> rounding_of(const Literal& literal)
 {
-    const auto [found, added] =
-        literal_index_.try_emplace(text, static_cast<std::uint32_t>(literals_.size()));
-    if (added) literals_.push_back({std::move(text), value});
-    return found->second;
+    // m / 10^k with both whole numbers exact as doubles: value * 10^k - m has the sign.
+    constexpr int most_digits = 15;
+    constexpr std::array powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    const std::string_view text = literal.text;
+    double number = 0;
+    int digits = 0;
+    long scale = 0;
+    bool fraction = false;
+    const bool negative = text.starts_with('-');
+    for (std::size_t i = negative ? 1 : 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c >= '0' && c <= '9') {
+            number = 10 * number + (c - '0');
+            scale += fraction ? 1 : 0;
+            if (++digits > most_digits) return std::nullopt;
+        } else if (c == '.') {
+            fraction = true;
+        } else {
+            long exponent = 0;
+            const char* const end = text.data() + text.size();
+            const auto read = std::from_chars(text.data() + i + 1, end, exponent);
+            if (c != 'e' || read.ec != std::errc{} || read.ptr != end) return std::nullopt;
+            scale -= exponent;
+            break;
+        }
+    }
+    if (scale < 0 || scale >= static_cast<long>(powers.size())) return std::nullopt;
+    const double difference = std::fma(literal.value, powers[static_cast<std::size_t>(scale)],
+                                       negative ? number : -number);
+    return difference > 0 ? 1 : difference < 0 ? -1 : 0;
+}
+
+std::optional<std::uint32_t> Graph::find_literal(std::string_view text) const
+{
+    return literal_index_.find(std::hash<std::string_view>{}(text),
+                               [&](std::uint32_t i) { return literals_[i].text == text; });
+}
+
+std::uint32_t Graph::intern_literal(std::string_view text, double value)
+{
+    if (const auto known = find_literal(text)) return *known;
+    literal_index_.add(std::hash<std::string_view>{}(text), literals_.size());
+    literals_.push_back({std::string{text}, value});
+    return static_cast<std::uint32_t>(literals_.size() - 1);
 }
 
 ExprId Graph::literal(std::string_view text, Span span)
 {
-    std::string canonical = canonical_number(text);
+    // What is known here is canonical, and so is a text that equals it.
+    if (const auto known = find_literal(text))
+        return intern(Op::literal, Type::scalar, *known, {}, span);
+    const std::string canonical = canonical_number(text);
     double value = 3.141592653589793;
     if (canonical != "pi") {
         const auto read =
@@ -137,7 +184,7 @@ ExprId Graph::literal(std::string_view text, Span span)
         if (read.ec == std::errc::result_out_of_range)
             value = canonical.find("e-") != std::string::npos ? 0.0 : HUGE_VAL;
     }
-    const std::uint32_t aux = intern_literal(std::move(canonical), value);
+    const std::uint32_t aux = intern_literal(canonical, value);
     return intern(Op::literal, Type::scalar, aux, {}, span);
 }
 
@@ -146,35 +193,39 @@ ExprId Graph::literal(double value, Span span)
     assert(std::isfinite(value));
     // The shortest text that reads back may be another real number than the double it stands
     // for; a folded literal must be exactly the double, so write every digit it has.
-    const std::string shortest = fmt::format("{}", value);
+    const std::string shortest = canonical_number(fmt::format("{}", value));
+    if (rounding_of({shortest, value}) == 0) return literal(shortest, span);
     std::string exact = fmt::format("{:.1074f}", value);
     exact.erase(exact.find_last_not_of('0') + 1);
-    if (canonical_number(shortest) == canonical_number(exact)) return literal(shortest, span);
-    return literal(std::string_view{exact}, span);
+    return literal(exact, span);
 }
 
 ExprId Graph::intern(Op op, Type type, std::uint32_t aux, std::span<const ExprId> operands,
                      Span span)
 {
-    const std::size_t key = hash_node(op, type, aux, operands);
-    const auto [begin, end] = shared_.equal_range(key);
-    for (auto it = begin; it != end; ++it) {
-        const Expr& expr = exprs_[it->second.index];
-        if (expr.op == op && expr.type == type && expr.aux == aux &&
-            std::ranges::equal(this->operands(it->second), operands))
-            return it->second;
-    }
+    const std::size_t hash = hash_node(op, type, aux, operands);
+    const auto known = shared_.find(hash, [&](std::uint32_t i) {
+        const Expr& expr = exprs_[i];
+        return expr.op == op && expr.type == type && expr.aux == aux &&
+               std::ranges::equal(this->operands(ExprId{i}), operands);
+    });
+    if (known) return ExprId{*known};
 
     const ExprId id{exprs_.size()};
     for ([[maybe_unused]] const ExprId operand : operands) assert(operand.index < id.index);
-    exprs_.push_back({op, type, aux, static_cast<std::uint32_t>(operands_.size()),
+    const std::size_t first = operands_.size();
+    exprs_.push_back({op, type, aux, static_cast<std::uint32_t>(first),
                       static_cast<std::uint32_t>(operands.size())});
-    // `operands` may be a slice of `operands_`: copy by index, not by iterator.
-    const std::vector<ExprId> list(operands.begin(), operands.end());
-    operands_.insert(operands_.end(), list.begin(), list.end());
+    // `operands` may be a slice of `operands_`, which moves when it grows.
+    const bool own = !operands_.empty() && !std::less<>{}(operands.data(), operands_.data()) &&
+                     std::less<>{}(operands.data(), operands_.data() + first);
+    const auto offset = own ? operands.data() - operands_.data() : 0;
+    operands_.resize(first + operands.size());
+    const ExprId* const from = own ? operands_.data() + offset : operands.data();
+    std::copy_n(from, operands.size(), operands_.begin() + static_cast<std::ptrdiff_t>(first));
     spans_.push_back(span);
     names_.emplace_back();
-    shared_.emplace(key, id);
+    shared_.add(hash, id.index);
     return id;
 }
 
@@ -185,9 +236,11 @@ ExprId Graph::input(std::uint32_t index, Type type, Span span)
 
 ExprId Graph::apply(Op op, std::span<const ExprId> operands, Span span)
 {
-    std::vector<Type> types;
-    for (const ExprId operand : operands) types.push_back((*this)[operand].type);
-    return intern(op, result_type(op, types), 0, operands, span);
+    std::array<Type, most_operands> types{};
+    assert(operands.size() <= types.size());
+    std::ranges::transform(operands, types.begin(),
+                           [this](ExprId operand) { return (*this)[operand].type; });
+    return intern(op, result_type(op, std::span{types}.first(operands.size())), 0, operands, span);
 }
 
 ExprId Graph::component(ExprId vector, int index, Span span)
@@ -218,13 +271,12 @@ ExprId Graph::copy(const Graph& from, ExprId id, std::span<const ExprId> operand
     const Expr expr = from[id];
     const Span span = from.span(id);
     if (expr.op == Op::literal) {
-        const Literal literal = from.literal_of(id);
+        const Literal& literal = from.literal_of(id);
         return intern(Op::literal, Type::scalar, intern_literal(literal.text, literal.value), {},
                       span);
     }
-    const std::string name = from.names_[id.index];  // a copy: `from` may be this graph
     const ExprId copied = intern(expr.op, expr.type, expr.aux, operands, span);
-    set_name(copied, name);
+    set_name(copied, from.names_[id.index]);
     return copied;
 }
 

@@ -11,15 +11,16 @@
 // part of what it is. The first span wins.
 #pragma once
 
+#include "base/hash_index.h"
 #include "base/id.h"
 #include "base/source.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace lobe::ir {
@@ -65,7 +66,12 @@ struct Expr {
 struct Literal {
     std::string text;
     double value = 0;
+    friend bool operator==(const Literal&, const Literal&) = default;
 };
+
+/// The sign of a literal's double minus the real number: 0 when the double is exact. Nothing
+/// where the text is too long to tell without big numbers, and for pi.
+std::optional<int> rounding_of(const Literal& literal);
 
 /// The canonical text of a decimal literal: no leading or trailing zeros, "0.5", "1e-7".
 std::string canonical_number(std::string_view text);
@@ -129,15 +135,16 @@ public:
 
 private:
     ExprId intern(Op op, Type type, std::uint32_t aux, std::span<const ExprId> operands, Span span);
-    std::uint32_t intern_literal(std::string text, double value);
+    std::optional<std::uint32_t> find_literal(std::string_view text) const;
+    std::uint32_t intern_literal(std::string_view text, double value);
 
     std::vector<Expr> exprs_;
     std::vector<ExprId> operands_;
     std::vector<Span> spans_;
     std::vector<std::string> names_;
     std::vector<Literal> literals_;
-    std::unordered_map<std::string, std::uint32_t> literal_index_;
-    std::unordered_multimap<std::size_t, ExprId> shared_;
+    HashIndex literal_index_;  ///< of literals_, by text
+    HashIndex shared_;         ///< of exprs_
 };
 
 /// The type of an operation over operands of these types. Asserts on a combination that the

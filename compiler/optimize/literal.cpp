@@ -96,6 +96,8 @@ std::optional<double> exact_value(const Literal& literal)
     if (literal.text == "pi" || !std::isfinite(literal.value)) return std::nullopt;
     if (literal.text == "0") return 0.0;
     if (!trusted(literal.value) || literal.value == 0) return std::nullopt;
+    if (const auto rounding = rounding_of(literal))
+        return *rounding == 0 ? Exact{literal.value} : std::nullopt;
     // Every digit of the double. 2^-400 has its last one at the 400th place.
     if (canonical_number(fmt::format("{:.460f}", literal.value)) != literal.text)
         return std::nullopt;

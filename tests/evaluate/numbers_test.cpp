@@ -45,6 +45,18 @@ TEST_CASE("a literal lies between its bounds, tightly")
     const Interval pi = to_interval(literal("pi"));
     CHECK(pi.low == 3.141592653589793);
     CHECK(next_up(pi.low) == pi.high);
+    // Short ones are bounded without big numbers, long ones with them: the same bounds.
+    for (const char* text :
+         {"0.1", "-0.1", "0.3", "-2.2", "1e-7", "1e-22", "1e-23", "123456.789012345",
+          "0.1234567890123456", "1e23", "-9.999999999999e-10"}) {
+        CAPTURE(text);
+        const Interval bounds = to_interval(literal(text));
+        constexpr int bits = 400;  // more than the 22 digits of the least double here need
+        const Real exact = to_real(literal(text), bits);
+        CHECK(mpfr_cmp_d(exact.get(), bounds.low) > 0);
+        CHECK(mpfr_cmp_d(exact.get(), bounds.high) < 0);
+        CHECK(next_up(bounds.low) == bounds.high);
+    }
 }
 
 TEST_CASE("a real number is written so that it reads back exactly")
