@@ -1,9 +1,10 @@
 #include "evaluate/line.h"
 
+#include "base/hash_index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <unordered_map>
 
 namespace lobe::evaluate {
 namespace {
@@ -13,21 +14,13 @@ using ir::Function;
 using ir::Graph;
 using ir::Op;
 
-struct StepHash {
-    std::size_t operator()(const Step& step) const
-    {
-        std::size_t h = static_cast<std::size_t>(step.op) * 3 + static_cast<std::size_t>(step.kind);
-        const auto mix = [&h](std::size_t word) {
-            h ^= word + 0x9e3779b97f4a7c15ULL + (h << 6) + (h >> 2);
-        };
-        mix(step.index);
-        for (const Value operand : step.operands) mix(operand);
-        return h;
-    }
-};
-
-/// The values of the components of one expression.
-using Components = std::vector<Value>;
+std::size_t hash_of(const Step& step)
+{
+    std::size_t hash = mix_hash(step.index, static_cast<std::size_t>(step.op) * 3 +
+                                                static_cast<std::size_t>(step.kind));
+    for (const Value operand : step.arguments()) hash = mix_hash(hash, operand);
+    return hash;
+}
 
 /// Integer exponents up to this are products; optimize/legalize.cpp writes the same products.
 constexpr int largest_product = 64;
@@ -90,16 +83,19 @@ private:
     const Function& function_;
     Trace trace_;
     Line line_;
-    std::unordered_map<Step, Value, StepHash> shared_;
-    std::unordered_map<std::string, std::uint32_t> constants_;
+    HashIndex shared_;     ///< of steps
+    HashIndex constants_;  ///< of constants, by text
     std::vector<Frame> stack_;
 };
 
 Value Scalarizer::intern(const Step& step)
 {
-    const auto [found, added] = shared_.try_emplace(step, static_cast<Value>(line_.steps.size()));
-    if (added) line_.steps.push_back(step);
-    return found->second;
+    const std::size_t hash = hash_of(step);
+    const auto same = [&](std::uint32_t position) { return line_.steps[position] == step; };
+    if (const auto found = shared_.find(hash, same)) return *found;
+    shared_.add(hash, line_.steps.size());
+    line_.steps.push_back(step);
+    return static_cast<Value>(line_.steps.size() - 1);
 }
 
 Value Scalarizer::emit(TapeOp op, Value a, Value b, Value c, Value d)
@@ -112,10 +108,16 @@ Value Scalarizer::emit(TapeOp op, Value a, Value b, Value c, Value d)
 
 Value Scalarizer::constant(const ir::Literal& literal)
 {
-    const auto [found, added] =
-        constants_.try_emplace(literal.text, static_cast<std::uint32_t>(line_.constants.size()));
-    if (added) line_.constants.push_back(literal);
-    return intern({Step::Kind::constant, {}, 0, found->second, {}});
+    const std::size_t hash = std::hash<std::string_view>{}(literal.text);
+    auto position = constants_.find(hash, [&](std::uint32_t candidate) {
+        return line_.constants[candidate].text == literal.text;
+    });
+    if (!position) {
+        position = static_cast<std::uint32_t>(line_.constants.size());
+        constants_.add(hash, *position);
+        line_.constants.push_back(literal);
+    }
+    return intern({Step::Kind::constant, {}, 0, *position, {}});
 }
 
 Value Scalarizer::number(int value)
@@ -158,7 +160,7 @@ Components Scalarizer::each(const Frame& frame, ExprId id)
 {
     const Graph& graph = frame.function->graph;
     const auto operands = graph.operands(id);
-    const auto op = graph[id].op;
+    const Op op = graph[id].op;
     const auto width = static_cast<std::size_t>(components(graph[id].type));
 
     std::optional<int> exponent;
@@ -268,7 +270,8 @@ Components Scalarizer::scalars(const Frame& frame, ExprId id)
     case Op::construct: {
         Components result;
         for (std::size_t i = 0; i < expr.count; ++i) result.push_back(operand(i)[0]);
-        result.resize(static_cast<std::size_t>(components(expr.type)), result[0]);
+        while (result.size() < static_cast<std::size_t>(components(expr.type)))
+            result.push_back(result[0]);
         return result;
     }
     case Op::dot: return {dot(operand(0), operand(1))};
@@ -317,8 +320,8 @@ void Scalarizer::leave()
 {
     Frame done = std::move(stack_.back());
     stack_.pop_back();
-    Components result = std::move(done.values[done.function->result.index]);
-    stack_.back().values[done.caller.index] = std::move(result);
+    const Components result = done.values[done.function->result.index];
+    stack_.back().values[done.caller.index] = result;
 }
 
 void Scalarizer::visit(Frame& frame, ExprId id)
@@ -347,7 +350,7 @@ Line Scalarizer::run()
                 {input.name + component_suffix(input.type, input.quantity, k), i, k});
             scalars_of_input.push_back(intern({Step::Kind::input, {}, 0, index, {}}));
         }
-        arguments.push_back(std::move(scalars_of_input));
+        arguments.push_back(scalars_of_input);
     }
 
     enter(function_, std::move(arguments), {}, trace_ == Trace::all);
@@ -364,7 +367,8 @@ Line Scalarizer::run()
     }
 
     Frame& outermost = stack_.back();
-    line_.outputs = outermost.values[function_.result.index];
+    const Components& result = outermost.values[function_.result.index];
+    line_.outputs.assign(result.begin(), result.end());
     for (int k = 0; k < components(function_.type()); ++k)
         line_.output_names.push_back(function_.name +
                                      component_suffix(function_.type(), function_.quantity, k));

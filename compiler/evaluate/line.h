@@ -7,6 +7,8 @@
 #include "evaluate/tape.h"
 
 #include <array>
+#include <cassert>
+#include <initializer_list>
 #include <span>
 
 namespace lobe::evaluate {
@@ -29,14 +31,37 @@ struct Step {
     friend bool operator==(const Step&, const Step&) = default;
 };
 
+/// The values of the components of one expression, at most four.
+class Components {
+public:
+    Components() = default;
+    Components(std::initializer_list<Value> values)
+    {
+        for (const Value value : values) push_back(value);
+    }
+
+    void push_back(Value value)
+    {
+        assert(size_ < values_.size());
+        values_[size_++] = value;
+    }
+    std::size_t size() const { return size_; }
+    Value operator[](std::size_t i) const { return values_[i]; }
+    const Value* begin() const { return values_.data(); }
+    const Value* end() const { return values_.data() + size_; }
+
+private:
+    std::array<Value, 4> values_{};
+    std::uint32_t size_ = 0;
+};
+
 struct Line {
     std::vector<TapeInput> inputs;
     std::vector<ir::Literal> constants;
     std::vector<Step> steps;  ///< indexed by Value
     std::vector<Value> outputs;
     std::vector<std::string> output_names;
-    /// Per expression of the function's own graph, one value per component. Only when traced.
-    std::vector<std::vector<Value>> values_of;
+    std::vector<Components> values_of;  ///< per expression of the function's own graph, if traced
 };
 
 enum class Trace {

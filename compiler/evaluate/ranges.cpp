@@ -1,47 +1,69 @@
-// Ranges of expressions: a traced tape, run once on the intervals of the inputs.
+// Ranges of expressions: a line with everything kept, run once on the intervals of the inputs.
 #include "evaluate/acceptance.h"
 #include "evaluate/bounds.h"
 #include "evaluate/intervals.h"
+#include "evaluate/line.h"
 #include "evaluate/literals.h"
 #include "evaluate/run.h"
 
 namespace lobe::evaluate {
 namespace {
 
-std::vector<Interval> run_reals(const Tape& tape, const std::vector<Interval>& inputs)
+/// Runs a line on numbers of one kind: `input(scalar)`, `constant(literal)`, `operation(op, …)`.
+template <class Number, class Input, class Constant, class Operation>
+std::vector<Number> run_line(const Line& line, Input input, Constant constant, Operation operation)
 {
-    std::vector<Interval> slots(tape.slots);
-    std::copy(inputs.begin(), inputs.end(), slots.begin());
-    for (const Constant& constant : tape.constants)
-        slots[constant.slot] = to_interval(constant.literal);
-    for (const Instruction& step : tape.code)
-        slots[step.result] =
-            apply(step.op, slots[step.a], slots[step.b], slots[step.c], slots[step.d]);
-    return slots;
+    std::vector<Number> values;
+    values.reserve(line.steps.size());
+    for (const Step& step : line.steps) {
+        const auto at = [&](std::size_t i) -> const Number& { return values[step.operands[i]]; };
+        switch (step.kind) {
+        case Step::Kind::input: values.push_back(input(line.inputs[step.index].input)); break;
+        case Step::Kind::constant: values.push_back(constant(line.constants[step.index])); break;
+        case Step::Kind::operation:
+            // Operands past the arity are value 0, which is there: an operation has operands.
+            values.push_back(operation(step.op, at(0), at(1), at(2), at(3)));
+            break;
+        }
+    }
+    return values;
+}
+
+std::vector<Interval> run_reals(const Line& line, std::span<const Interval> inputs)
+{
+    return run_line<Interval>(
+        line, [&](std::uint32_t input) { return inputs[input]; }, to_interval,
+        [](TapeOp op, Interval a, Interval b, Interval c, Interval d) {
+            return apply(op, a, b, c, d);
+        });
 }
 
 /// What a device may return contains the value over the reals of the same operands, so these
 /// ranges hold for both. That the contract lets a device return anything (`undefined`) is left
 /// out: the checker has proved that no such operation counts.
-std::vector<Interval> run_float32(const Tape& tape, const std::vector<Interval>& inputs)
+std::vector<Interval> run_float32(const Line& line, std::span<const Interval> inputs)
 {
     const Rules& table = rules(Precision::float32);
-    std::vector<Acceptance> slots(tape.slots);
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-        slots[i] = admit(table, {inputs[i].low, inputs[i].high, false});
-    for (const Constant& constant : tape.constants) {
-        const Interval exact = to_interval(constant.literal);
-        const double nearest = static_cast<double>(to_float(constant.literal));
-        slots[constant.slot] =
-            admit(table, {std::min(exact.low, nearest), std::max(exact.high, nearest), false});
-    }
-    for (const Instruction& step : tape.code) {
-        Acceptance& result = slots[step.result];
-        result = apply(table, step.op, slots[step.a], slots[step.b], slots[step.c], slots[step.d]);
-        result.undefined = false;
-    }
+    const auto accepted = run_line<Acceptance>(
+        line,
+        [&](std::uint32_t input) {
+            return admit(table, {inputs[input].low, inputs[input].high, false});
+        },
+        [&](const ir::Literal& literal) {
+            const Interval exact = to_interval(literal);
+            const double nearest = static_cast<double>(to_float(literal));
+            return admit(table,
+                         {std::min(exact.low, nearest), std::max(exact.high, nearest), false});
+        },
+        [&](TapeOp op, const Acceptance& a, const Acceptance& b, const Acceptance& c,
+            const Acceptance& d) {
+            Acceptance result = apply(table, op, a, b, c, d);
+            result.undefined = false;
+            return result;
+        });
     std::vector<Interval> bounds;
-    for (const Acceptance& slot : slots) bounds.push_back({slot.low, slot.high});
+    bounds.reserve(accepted.size());
+    for (const Acceptance& value : accepted) bounds.push_back({value.low, value.high});
     return bounds;
 }
 
@@ -50,18 +72,15 @@ std::vector<Interval> run_float32(const Tape& tape, const std::vector<Interval>&
 Facts<ir::Expr, Interval> ranges(const ir::Module& module, const ir::Function& function,
                                  std::span<const Interval> inputs, Arithmetic arithmetic)
 {
-    const Traced traced = compile_traced(module, function);
-    std::vector<Interval> scalars;
-    for (const TapeInput& input : traced.tape.inputs) scalars.push_back(inputs[input.input]);
-    const std::vector<Interval> slots = arithmetic == Arithmetic::float32
-                                            ? run_float32(traced.tape, scalars)
-                                            : run_reals(traced.tape, scalars);
+    const Line line = scalarize(module, function, Trace::all);
+    const std::vector<Interval> values =
+        arithmetic == Arithmetic::float32 ? run_float32(line, inputs) : run_reals(line, inputs);
 
     Facts<ir::Expr, Interval> result(function.graph.size());
     for (const ir::ExprId id : function.graph.ids()) {
-        const std::vector<Slot>& components = traced.slots_of[id.index];
-        Interval range = slots[components[0]];
-        for (const Slot slot : components) range = hull(range, slots[slot]);
+        const Components& components = line.values_of[id.index];
+        Interval range = values[components[0]];
+        for (const Value value : components) range = hull(range, values[value]);
         result[id] = range;
     }
     return result;
