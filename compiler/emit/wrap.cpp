@@ -86,6 +86,9 @@ std::vector<std::string> fill(std::string_view prose, std::size_t width)
         line += word;
     }
     if (!line.empty()) lines.push_back(std::move(line));
+    // A backslash at the end would join the next line of code to a comment.
+    for (std::string& filled : lines)
+        if (filled.ends_with('\\')) filled += '.';
     return lines;
 }
 

@@ -12,7 +12,7 @@ namespace lobe::emit {
 /// the first start with `indent`. A piece without such a place stays too wide.
 std::string wrap(std::string_view line, std::size_t column, std::string_view indent);
 
-/// Prose broken at spaces, as lines of at most `width` columns.
+/// Prose broken at spaces, as lines of at most `width` columns. No line ends in a backslash.
 std::vector<std::string> fill(std::string_view prose, std::size_t width);
 
 /// As `fill`, paragraph by paragraph; blank lines between them stay.

@@ -54,6 +54,7 @@ TEST_CASE("prose is filled, with ranges whole and paragraphs apart", "[emit][wra
     CHECK(fill("a b c d", 3) == std::vector<std::string>{"a b", "c d"});
     CHECK(fill("xx in [0, 1] yy", 9) == std::vector<std::string>{"xx in", "[0, 1] yy"});
     CHECK(fill("", 9).empty());
+    CHECK(fill("a \\ b \\", 3) == std::vector<std::string>{"a \\.", "b \\."});
     CHECK(paragraphs("a\nb\n\nc", 9) == std::vector<std::string>{"a b", "", "c"});
 }
 
