@@ -47,32 +47,35 @@ int main(int argc, char** argv)
     const std::string models = argc > 1 ? argv[1] : "models";
     const cli::Terminal terminal;
 
-    struct Text {
-        std::string text;
-        verify::Dialect dialect;
-    };
-    std::vector<Text> texts;
+    std::vector<const emit::Target*> targets;
+    for (const emit::Target& target : emit::targets()) targets.push_back(&target);
+    std::vector<std::vector<emit::Artifact>> artifacts;  // per module, one per target
     const auto build = [&] {
-        texts.clear();
+        artifacts.clear();
         const cli::Program program = cli::load(terminal, {models});
         if (program.status != cli::success) {
             cli::print(terminal, program.diagnostics, program.sources);
             std::exit(program.status);
         }
-        for (const ir::Module& module : program.modules) {
-            const ir::Module legal = middle(module);
-            for (const emit::Target& target : emit::targets())
-                for (const emit::Artifact& artifact : emit::emit(legal, program.sources, target))
-                    texts.push_back({emit::frame(artifact, target).text, dialect(target.language)});
-        }
+        for (const ir::Module& module : program.modules)
+            artifacts.push_back(back(middle(module), program.sources, targets));
     };
+    build();
+    struct Text {
+        std::string text;
+        verify::Dialect dialect;
+    };
+    std::vector<Text> texts;
+    for (const auto& files : artifacts)
+        for (std::size_t i = 0; i < targets.size(); ++i)
+            texts.push_back(
+                {emit::frame(files[i], *targets[i]).text, dialect(targets[i]->language)});
     const auto parse = [&] {
         for (const Text& text : texts)
             if (!verify::parse_only(text.text, text.dialect, verify::Stage::fragment).accepted)
                 std::exit(1);
     };
 
-    build();
     parse();
     std::vector<double> build_times;
     std::vector<double> parse_times;

@@ -24,11 +24,7 @@ ir::Module middle(const ir::Module& module) { return optimize::optimize(module);
 std::vector<emit::Artifact> back(const ir::Module& module, const Sources& sources,
                                  const std::vector<const emit::Target*>& targets)
 {
-    std::vector<emit::Artifact> artifacts;
-    for (const emit::Target* target : targets)
-        for (emit::Artifact& artifact : emit::emit(module, sources, *target))
-            artifacts.push_back(std::move(artifact));
-    return artifacts;
+    return emit::emit(module, sources, targets);
 }
 
 // ---- the public interface: the same line, without the compiler's own types

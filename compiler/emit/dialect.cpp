@@ -133,7 +133,7 @@ Dialect make_unreal()
     unreal.names = Case::pascal;
     unreal.helpers = "ue4";
     unreal.extension = ".ush";
-    for (const std::string_view word : unreal_words()) unreal.reserved.insert(word);
+    unreal.reserved.merge(unreal_words());
     return unreal;
 }
 

@@ -7,7 +7,7 @@
 #include "emit/emit.h"
 
 #include <array>
-#include <set>
+#include <unordered_set>
 
 namespace lobe::emit {
 
@@ -43,6 +43,9 @@ struct Spelling {
     bool zero_and_one = false;  ///< a call that ends in the arguments 0, 1
 };
 
+/// Asked for membership only, never walked into output.
+using Words = std::unordered_set<std::string_view>;
+
 /// How identifiers are written.
 enum class Case : std::uint8_t {
     snake,
@@ -63,9 +66,9 @@ struct Dialect {
     std::string_view indent = "    ";
     Case names{};
     std::vector<std::pair<ir::Op, Spelling>> overrides = {};  ///< where it differs from `common`
-    std::string_view helpers = {};             ///< folder of templates/ with the guarded helpers
-    std::string_view extension = {};           ///< of the helper templates
-    std::set<std::string_view> reserved = {};  ///< keywords, builtin functions, the engine's macros
+    std::string_view helpers = {};    ///< folder of templates/ with the guarded helpers
+    std::string_view extension = {};  ///< of the helper templates
+    Words reserved = {};              ///< keywords, builtin functions, the engine's macros
 
     Spelling spelling(ir::Op op) const;
     std::string_view type(ir::Type type) const { return types[static_cast<std::size_t>(type)]; }
@@ -83,8 +86,8 @@ const Dialect& dialect(const Target& target, Precision precision = Precision::fl
 std::string input_name(const Dialect& dialect, const ir::Input& input);
 
 /// Words that are taken, per language (reserved.cpp).
-std::set<std::string_view> glsl_words();
-std::set<std::string_view> hlsl_words();
-std::set<std::string_view> unreal_words();
+Words glsl_words();
+Words hlsl_words();
+Words unreal_words();
 
 }  // namespace lobe::emit

@@ -30,6 +30,11 @@ struct Artifact {
 /// The files of one module for one target.
 std::vector<Artifact> emit(const ir::Module& module, const Sources& sources, const Target& target);
 
+/// The same for several targets, in their order. What is the same text for some of them is written
+/// once.
+std::vector<Artifact> emit(const ir::Module& module, const Sources& sources,
+                           const std::vector<const Target*>& targets);
+
 /// A number format a function can be computed in on a device.
 enum class Precision {
     float32,

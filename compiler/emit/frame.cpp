@@ -45,8 +45,28 @@ std::string unreal_prelude() { return render_embedded("ue4/prelude.ush", {}).tex
 
 std::vector<Artifact> emit(const ir::Module& module, const Sources& sources, const Target& target)
 {
-    return {target.name == "ue4" ? emit_unreal(module, sources, target)
-                                 : emit_shading_language(module, sources, target)};
+    return emit(module, sources, std::vector<const Target*>{&target});
+}
+
+std::vector<Artifact> emit(const ir::Module& module, const Sources& sources,
+                           const std::vector<const Target*>& targets)
+{
+    std::vector<Artifact> artifacts;
+    std::vector<ShadingFiles> files;  // one per dialect
+    for (const Target* target : targets) {
+        if (target->name == "ue4") {
+            artifacts.push_back(emit_unreal(module, sources, *target));
+            continue;
+        }
+        auto serving = std::ranges::find_if(
+            files, [&](const ShadingFiles& file) { return file.serves(*target); });
+        if (serving == files.end()) {
+            files.emplace_back(module, sources, *target);
+            serving = files.end() - 1;
+        }
+        artifacts.push_back(serving->artifact(*target));
+    }
+    return artifacts;
 }
 
 Framed insert(std::string text, const std::string& artifact)

@@ -32,8 +32,25 @@ std::string to_float(ir::Type type, const std::string& value);
 std::vector<std::string> root_calls(const ir::Module& module, const Listing& listing,
                                     const Dialect& dialect);
 
-Artifact emit_shading_language(const ir::Module& module, const Sources& sources,
-                               const Target& target);
+/// The files of one module for GLSL, ESSL or HLSL. Those of one dialect say the same, but for
+/// whether they state a precision.
+class ShadingFiles {
+public:
+    /// Everything that the targets of this one's dialect share.
+    ShadingFiles(const ir::Module& module, const Sources& sources, const Target& target);
+
+    bool serves(const Target& target) const { return &dialect(target) == dialect_; }
+    Artifact artifact(const Target& target);
+
+private:
+    std::string module_;
+    const Dialect* dialect_;
+    Record values_;
+    std::vector<std::string> calls_;
+    Listing listing_;
+    std::array<std::optional<Rendered>, 2> rendered_;  ///< without and with precision
+};
+
 Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Target& target);
 
 }  // namespace lobe::emit

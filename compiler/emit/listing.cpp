@@ -43,7 +43,8 @@ std::string end_text(double value)
 std::vector<Record> lines(const std::vector<std::string>& texts)
 {
     std::vector<Record> records;
-    for (const std::string& text : texts) records.push_back({{{"text", text}}, {}});
+    records.reserve(texts.size());
+    for (const std::string& text : texts) records.emplace_back().texts["text"] = text;
     return records;
 }
 
@@ -87,7 +88,7 @@ std::vector<Record> Listing::functions()
     return records;
 }
 
-Scope Listing::scope() const { return {module_, dialect_, names_, {}, {}, file_, prefix_}; }
+Scope Listing::scope() const { return {module_, dialect_, names_, {}, {}, file_.inner(), prefix_}; }
 
 Body Listing::write(Scope& scope, const ir::Graph& graph, const std::vector<ir::ExprId>& roots)
 {

@@ -19,7 +19,9 @@ std::string allowed(std::string_view wanted)
 
 bool Namer::is_taken(std::string_view name) const
 {
-    return taken_.contains(name) || dialect_->reserved.contains(name);
+    for (const Namer* namer = this; namer != nullptr; namer = namer->outer_)
+        if (namer->taken_.contains(name)) return true;
+    return dialect_->reserved.contains(name);
 }
 
 std::string Namer::unique(std::string_view wanted)
@@ -27,7 +29,8 @@ std::string Namer::unique(std::string_view wanted)
     const std::string base = allowed(wanted);
     std::string name = base;
     if (dialect_->reserved.contains(name) && !name.ends_with('_')) name += '_';
-    const std::string stem = base.ends_with('_') ? base.substr(0, base.size() - 1) : base;
+    const std::string_view stem =
+        std::string_view{base}.substr(0, base.size() - (base.ends_with('_') ? 1 : 0));
     for (int count = 2; is_taken(name); ++count) name = fmt::format("{}_{}", stem, count);
     taken_.insert(name);
     return name;

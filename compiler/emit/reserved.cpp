@@ -89,8 +89,8 @@ constexpr std::string_view unreal[] = {
 
 }  // namespace
 
-std::set<std::string_view> glsl_words() { return {std::begin(glsl), std::end(glsl)}; }
-std::set<std::string_view> hlsl_words() { return {std::begin(hlsl), std::end(hlsl)}; }
-std::set<std::string_view> unreal_words() { return {std::begin(unreal), std::end(unreal)}; }
+Words glsl_words() { return {std::begin(glsl), std::end(glsl)}; }
+Words hlsl_words() { return {std::begin(hlsl), std::end(hlsl)}; }
+Words unreal_words() { return {std::begin(unreal), std::end(unreal)}; }
 
 }  // namespace lobe::emit

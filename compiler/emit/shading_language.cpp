@@ -229,32 +229,34 @@ std::vector<std::string> root_calls(const ir::Module& module, const Listing& lis
     return calls;
 }
 
-Artifact emit_shading_language(const ir::Module& module, const Sources& sources,
-                               const Target& target)
+ShadingFiles::ShadingFiles(const ir::Module& module, const Sources& sources, const Target& target)
+    : module_(module.name), dialect_(&dialect(target)),
+      listing_(module, sources, *dialect_, module.reachable(module.roots()),
+               function_prefix(module, target))
 {
-    const Dialect& language = dialect(target);
-    Listing listing{module, sources, language, module.reachable(module.roots()),
-                    function_prefix(module, target)};
-    std::vector<std::string> calls = root_calls(module, listing, language);
-
-    Record values;
-    values.texts = {{"banner", banner(module)}, {"guard", include_guard(module, target)}};
-    values.lists["doc"] = module_doc(module);
-    if (target.language != Language::hlsl)
-        values.lists["precisions"] =
-            target.language == Language::essl ? std::vector<Record>{{}} : std::vector<Record>{};
+    calls_ = root_calls(module, listing_, *dialect_);
+    values_.texts = {{"banner", banner(module)}, {"guard", include_guard(module, target)}};
+    values_.lists["doc"] = module_doc(module);
     std::vector<Record> models;
     for (const ir::Model& model : module.models)
-        models.push_back(ModelFrame{module, model, language, listing}.record(calls));
-    values.lists["functions"] = listing.functions();
-    values.lists["models"] = std::move(models);
-    values.lists["helpers"] = listing.helpers();
+        models.push_back(ModelFrame{module, model, *dialect_, listing_}.record(calls_));
+    values_.lists["functions"] = listing_.functions();
+    values_.lists["models"] = std::move(models);
+    values_.lists["helpers"] = listing_.helpers();
+}
 
-    const std::string path =
-        target.language == Language::hlsl ? "hlsl/module.hlsl" : "glsl/module.glsl";
-    const Rendered rendered = render_embedded(path, values);
-    return {fmt::format("{}/{}/{}{}", module.name, target.name, module.name, target.extension),
-            rendered.text, listing.origins(rendered.marks), std::move(calls)};
+Artifact ShadingFiles::artifact(const Target& target)
+{
+    const bool precise = target.language == Language::essl;
+    std::optional<Rendered>& rendered = rendered_[precise ? 1 : 0];
+    if (!rendered && target.language == Language::hlsl) {
+        rendered = render_embedded("hlsl/module.hlsl", values_);
+    } else if (!rendered) {
+        values_.lists["precisions"] = std::vector<Record>(precise ? 1 : 0);
+        rendered = render_embedded("glsl/module.glsl", values_);
+    }
+    return {fmt::format("{}/{}/{}{}", module_, target.name, module_, target.extension),
+            rendered->text, listing_.origins(rendered->marks), calls_};
 }
 
 }  // namespace lobe::emit

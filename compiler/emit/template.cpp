@@ -1,23 +1,35 @@
 #include "emit/template.h"
 
 #include "base/embedded.h"
+#include "base/hash_index.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <set>
+#include <functional>
 
 namespace lobe::emit {
 namespace {
 
-constexpr std::string_view blanks = " \t";
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+std::string_view without_trailing_blanks(std::string_view text)
+{
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+std::size_t indent_of(std::string_view text)
+{
+    std::size_t indent = 0;
+    while (indent < text.size() && is_blank(text[indent])) ++indent;
+    return indent;
+}
 
 std::string_view trim(std::string_view text)
 {
-    const auto first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+    return without_trailing_blanks(text.substr(indent_of(text)));
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator)
@@ -31,6 +43,32 @@ std::vector<std::string_view> split(std::string_view text, char separator)
     }
 }
 
+/// Which values were asked for: membership only, by address.
+class Used {
+public:
+    void insert(const void* value)
+    {
+        if (contains(value)) return;
+        index_.add(hash(value), values_.size());
+        values_.push_back(value);
+    }
+    bool contains(const void* value) const
+    {
+        return index_
+            .find(hash(value), [&](std::uint32_t position) { return values_[position] == value; })
+            .has_value();
+    }
+
+private:
+    static std::size_t hash(const void* value)
+    {
+        return mix_hash(0, std::hash<const void*>{}(value));
+    }
+
+    std::vector<const void*> values_;
+    HashIndex index_;
+};
+
 class Renderer {
 public:
     Renderer(std::string_view name, std::string_view text, const Record& values)
@@ -43,7 +81,8 @@ public:
     {
         const std::size_t end = block(0, true);
         if (ok() && end < lines_.size()) fail(end, "`end` without `for`");
-        if (ok()) find_unused(values_, "");
+        std::vector<std::string_view> path;
+        if (ok()) find_unused(values_, path);
         if (!ok()) result_.text.clear();
         return std::move(result_);
     }
@@ -114,13 +153,16 @@ private:
         if (alone) {
             const std::string* value = find_text(bare.substr(2, bare.size() - 3), at);
             if (value == nullptr || value->empty()) return;
-            const std::string_view indent = line.substr(0, line.find_first_not_of(blanks));
-            for (const std::string_view part : split(*value, '\n'))
-                put(part.empty() ? "" : fmt::format("{}{}", indent, part));
+            const std::string_view indent = line.substr(0, indent_of(line));
+            for (const std::string_view part : split(*value, '\n')) {
+                if (!part.empty()) result_.text += indent;
+                put(part);
+            }
             return;
         }
 
-        std::string text;
+        std::string& text = scratch_;
+        text.clear();
         std::string_view rest = line;
         for (;;) {
             const auto begin = rest.find("${");
@@ -135,8 +177,7 @@ private:
             text += *value;
             rest.remove_prefix(end + 1);
         }
-        text.erase(text.find_last_not_of(blanks) + 1);
-        put(text);
+        put(without_trailing_blanks(text));
     }
 
     void put(std::string_view line)
@@ -160,9 +201,9 @@ private:
     {
         const auto [record, field] = resolve(path);
         if (record != nullptr)
-            if (const auto found = record->texts.find(field); found != record->texts.end()) {
-                used_.insert(&found->second);
-                return &found->second;
+            if (const std::string* found = record->texts.find(field)) {
+                used_.insert(found);
+                return found;
             }
         fail(at, fmt::format("unknown name `{}`", path));
         return nullptr;
@@ -172,24 +213,29 @@ private:
     {
         const auto [record, field] = resolve(path);
         if (record != nullptr)
-            if (const auto found = record->lists.find(field); found != record->lists.end()) {
-                used_.insert(&found->second);
-                return &found->second;
+            if (const std::vector<Record>* found = record->lists.find(field)) {
+                used_.insert(found);
+                return found;
             }
         fail(at, fmt::format("unknown list `{}`", path));
         return nullptr;
     }
 
-    void find_unused(const Record& record, const std::string& path)
+    /// `path` are the names of the lists that lead here.
+    void find_unused(const Record& record, std::vector<std::string_view>& path)
     {
         const auto unused = [&](const std::string& field) {
-            if (ok()) result_.error = fmt::format("{}: unused value `{}{}`", name_, path, field);
+            std::string lists;
+            for (const std::string_view list : path) lists += fmt::format("{}.", list);
+            if (ok()) result_.error = fmt::format("{}: unused value `{}{}`", name_, lists, field);
         };
         for (const auto& [field, text] : record.texts)
             if (!used_.contains(&text)) unused(field);
         for (const auto& [field, list] : record.lists) {
             if (!used_.contains(&list)) unused(field);
-            for (const Record& element : list) find_unused(element, path + field + ".");
+            path.push_back(field);
+            for (const Record& element : list) find_unused(element, path);
+            path.pop_back();
         }
     }
 
@@ -197,7 +243,8 @@ private:
     std::vector<std::string_view> lines_;
     const Record& values_;
     std::vector<std::pair<std::string_view, const Record*>> scopes_;
-    std::set<const void*> used_;  // asked for membership only, never walked
+    Used used_;
+    std::string scratch_;  // the line on its way
     int line_ = 1;
     Rendered result_;
 };

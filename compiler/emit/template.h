@@ -10,7 +10,7 @@
 // Strict both ways: a name the template does not get and a value it does not use are errors.
 #pragma once
 
-#include <map>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,10 +18,45 @@
 
 namespace lobe::emit {
 
+/// A handful of values by name, in the order in which they were added.
+template <class Value>
+class Fields {
+public:
+    struct Field {
+        std::string name;
+        Value value;
+    };
+
+    Fields() = default;
+    Fields(std::initializer_list<Field> fields) : fields_(fields) {}
+
+    const Value* find(std::string_view name) const
+    {
+        for (const Field& field : fields_)
+            if (field.name == name) return &field.value;
+        return nullptr;
+    }
+    /// The value of a name that is there.
+    const Value& at(std::string_view name) const { return *find(name); }
+    /// The value of this name, added empty if it was not there.
+    Value& operator[](std::string_view name)
+    {
+        for (Field& field : fields_)
+            if (field.name == name) return field.value;
+        return fields_.emplace_back(Field{std::string{name}, {}}).value;
+    }
+
+    auto begin() const { return fields_.begin(); }
+    auto end() const { return fields_.end(); }
+
+private:
+    std::vector<Field> fields_;
+};
+
 /// Values by name. As the element of a list, `tag` names the lines it fills (see `Mark`).
 struct Record {
-    std::map<std::string, std::string, std::less<>> texts;
-    std::map<std::string, std::vector<Record>, std::less<>> lists;
+    Fields<std::string> texts;
+    Fields<std::vector<Record>> lists;
     int tag = -1;
 };
 

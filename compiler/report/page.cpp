@@ -28,7 +28,7 @@ std::string escaped(std::string_view text)
 Record texts(std::initializer_list<std::pair<const std::string, std::string>> values)
 {
     Record record;
-    for (const auto& [name, value] : values) record.texts.emplace(name, value);
+    for (const auto& [name, value] : values) record.texts[name] = value;
     return record;
 }
 
