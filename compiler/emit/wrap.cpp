@@ -39,6 +39,14 @@ std::size_t break_before(std::string_view line, std::size_t room, bool first)
     return best;
 }
 
+/// The index of the next blank or line end, or npos. (find_first_of searches its set per letter.)
+std::size_t word_end(std::string_view prose, std::size_t from)
+{
+    for (std::size_t i = from; i < prose.size(); ++i)
+        if (prose[i] == ' ' || prose[i] == '\n') return i;
+    return std::string_view::npos;
+}
+
 }  // namespace
 
 std::string wrap(std::string_view line, std::size_t column, std::string_view indent)
@@ -67,13 +75,13 @@ std::vector<std::string> fill(std::string_view prose, std::size_t width)
     std::vector<std::string> lines;
     std::string line;
     while (!prose.empty()) {
-        auto end = prose.find_first_of(" \n");
+        auto end = word_end(prose, 0);
         // A range stays whole: `[0, 1]`.
         if (prose.substr(0, end).find('[') != std::string_view::npos) {
             const auto close = prose.find_first_of("])\n");
             if (close != std::string_view::npos && (end == std::string_view::npos || close > end) &&
                 close - prose.find('[') < 24)
-                end = prose.find_first_of(" \n", close);
+                end = word_end(prose, close);
         }
         const std::string_view word = prose.substr(0, end);
         prose.remove_prefix(end == std::string_view::npos ? prose.size() : end + 1);

@@ -1,8 +1,8 @@
 #include "ir/module.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace lobe::ir {
 
@@ -53,6 +53,38 @@ std::vector<FunctionId> Module::reachable(const std::vector<FunctionId>& from) c
     return result;
 }
 
+Module without_functions(const Module& module)
+{
+    return {.name = module.name,
+            .path = module.path,
+            .doc = module.doc,
+            .sources = module.sources,
+            .tiers = module.tiers,
+            .parameters = module.parameters,
+            .functions = {},
+            .effects = module.effects,
+            .models = module.models};
+}
+
+Function without_body(const Function& function)
+{
+    return {.name = function.name,
+            .kind = function.kind,
+            .module = function.module,
+            .doc = function.doc,
+            .citations = function.citations,
+            .span = function.span,
+            .inputs = {},
+            .graph = {},
+            .result = {},
+            .quantity = function.quantity,
+            .declared_range = function.declared_range,
+            .range = function.range,
+            .form_of = function.form_of,
+            .form_name = function.form_name,
+            .formula = function.formula};
+}
+
 Function entry_point(const Module& module, FunctionId id)
 {
     const Function& callee = module[id];
@@ -67,9 +99,13 @@ Function entry_point(const Module& module, FunctionId id)
     };
     const auto add_vector = [&add_input](GeometryField field) {
         const FieldFacts& known = facts(field);
-        return add_input({std::string{known.name}, known.type, Quantity::direction,
-                          {known.low, known.high}, Origin::geometry,
-                          static_cast<std::uint32_t>(field), {}});
+        return add_input({std::string{known.name},
+                          known.type,
+                          Quantity::direction,
+                          {known.low, known.high},
+                          Origin::geometry,
+                          static_cast<std::uint32_t>(field),
+                          {}});
     };
 
     bool geometry = false;
@@ -114,8 +150,8 @@ std::optional<std::string> verify_function(const Module& module, std::size_t ind
         if (expr.op == Op::input) {
             if (expr.aux >= function.inputs.size()) return broken("reads an input it lacks");
             if (function.inputs[expr.aux].type != expr.type)
-                return broken(fmt::format("reads input {} as another type",
-                                          function.inputs[expr.aux].name));
+                return broken(
+                    fmt::format("reads input {} as another type", function.inputs[expr.aux].name));
         }
         if (expr.op == Op::call) {
             if (expr.aux >= index) return broken("calls a function that does not come before it");

@@ -144,6 +144,11 @@ struct Module {
     std::vector<FunctionId> reachable(const std::vector<FunctionId>& from) const;
 };
 
+/// Everything but the functions, and everything but inputs, graph and result: what a pass starts
+/// from that builds them anew.
+Module without_functions(const Module& module);
+Function without_body(const Function& function);
+
 /// An entry point: takes vectors, calls one function. Its inputs are the callee's, but with l, v
 /// and n (and x, y where the tangent frame is needed) in place of the geometry fields; its graph
 /// computes the fields from the vectors and ends in the call. It is part of no module and keeps

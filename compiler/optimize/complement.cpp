@@ -3,6 +3,8 @@
 #include "optimize/rewrite.h"
 #include "optimize/rules.h"
 
+#include <algorithm>
+
 namespace lobe::optimize {
 
 using namespace ir;
@@ -23,6 +25,7 @@ std::vector<bool> wanted_by(const Module& module, const Function& function,
     for (const Input& input : function.inputs) eligible.push_back(is_unit_argument(input));
 
     std::vector<bool> result(function.inputs.size());
+    if (std::ranges::find(eligible, true) == eligible.end()) return result;
     const Graph& graph = function.graph;
     const auto matches = match_rules(subject(module, function, eligible));
     for (const ExprId id : graph.ids()) {

@@ -61,13 +61,17 @@ ExprId spell_power(Graph& graph, ExprId x, Type type, int halves, const Interval
     return halves < 0 ? graph.apply(Op::divide, {one(), *result}, span) : *result;
 }
 
+bool is_power(Op op) { return op == Op::power || op == Op::guarded_power; }
+
 Step spell_powers(Rebuild& rebuild)
 {
     const Function& old = rebuild.old();
+    if (!any_expression(old.graph, [&](ExprId id) { return is_power(old.graph[id].op); }))
+        return {};
     auto ranges = evaluate::ranges(rebuild.old_module(), old, evaluate::declared_ranges(old));
     return [&rebuild, &old, ranges = std::move(ranges)](ExprId id) {
         const Expr& expr = old.graph[id];
-        if (expr.op != Op::power && expr.op != Op::guarded_power) return rebuild.copy(id);
+        if (!is_power(expr.op)) return rebuild.copy(id);
         const Span span = old.graph.span(id);
         const auto operands = old.graph.operands(id);
         const ExprId x = rebuild.moved(operands[0]);
@@ -78,6 +82,26 @@ Step spell_powers(Rebuild& rebuild)
             return rebuild.graph.apply(Op::exp2, {rebuild.moved(operands[1])}, span);
         return rebuild.copy(id);
     };
+}
+
+/// Operations that may need a guard, or lose one.
+bool has_domain(Op op)
+{
+    switch (op) {
+    case Op::power:
+    case Op::guarded_power:
+    case Op::smoothstep:
+    case Op::guarded_smoothstep:
+    case Op::normalize:
+    case Op::guarded_normalize:
+    case Op::square_root:
+    case Op::inverse_square_root:
+    case Op::log:
+    case Op::log2:
+    case Op::arc_sine:
+    case Op::arc_cosine: return true;
+    default: return false;
+    }
 }
 
 /// One expression and the ranges of its operands.
@@ -149,6 +173,8 @@ private:
 Step place_guards(Rebuild& rebuild)
 {
     const Function& old = rebuild.old();
+    if (!any_expression(old.graph, [&](ExprId id) { return has_domain(old.graph[id].op); }))
+        return {};
     auto ranges = evaluate::ranges(rebuild.old_module(), old, evaluate::declared_ranges(old));
     return [&rebuild, ranges = std::move(ranges)](ExprId id) {
         return Guard{rebuild, ranges, id}.guarded();

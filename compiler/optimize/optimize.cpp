@@ -4,21 +4,28 @@
 
 namespace lobe::optimize {
 
+namespace {
+
+ir::Module checked(ir::Module module)
+{
+    assert(!ir::verify(module));
+    return module;
+}
+
+}  // namespace
+
 ir::Module optimize(const ir::Module& module)
 {
-    constexpr ir::Module (*pipeline[])(const ir::Module&) = {
-        simplify,   // so that rules meet x and not x * 1
-        stabilize,  // while powers are powers and differences stand as they were written
-        simplify,   // what a stable form folds to, and inputs that nothing reads any more
-        legalize,   // late: what it proves is about the expressions that will be emitted
-        simplify,   // factors of 1 in products, and guards that a sharper range makes needless
-    };
-    ir::Module current = module;
-    for (const auto pass : pipeline) {
-        current = pass(current);
-        assert(!ir::verify(current));
-    }
-    return current;
+    // So that rules meet x and not x * 1.
+    const ir::Module simple = checked(simplify(module));
+    // While powers are powers and differences stand as they were written.
+    const ir::Module stable = checked(stabilize(simple));
+    // What a stable form folds to, and inputs that nothing reads any more.
+    const ir::Module clean = checked(simplify_again(simple, stable));
+    // Late: what it proves is about the expressions that will be emitted.
+    const ir::Module legal = checked(legalize(clean));
+    // Factors of 1 in products, and guards that a sharper range makes needless.
+    return checked(simplify_again(clean, legal));
 }
 
 }  // namespace lobe::optimize

@@ -12,6 +12,10 @@ namespace lobe::optimize {
 /// unused inputs of functions (but not of roots' own arguments) removed.
 ir::Module simplify(const ir::Module& module);
 
+/// The same for a module that another pass made of one that was simple: only what differs from
+/// it, and what calls that, is looked at.
+ir::Module simplify_again(const ir::Module& simple, const ir::Module& module);
+
 /// Cancelling differences over geometry replaced by the stable fields (ir/geometry.h) and by
 /// factored forms, through calls.
 ir::Module stabilize(const ir::Module& module);

@@ -38,6 +38,15 @@ Input gained_input(const Module& module, Origin origin, std::uint32_t which)
     return {};
 }
 
+/// True when a callee with these wires takes what it took when it had so many inputs.
+bool is_same_order(const std::vector<Wire>& wires, std::size_t inputs)
+{
+    if (wires.size() != inputs) return false;
+    for (std::uint32_t i = 0; i < wires.size(); ++i)
+        if (wires[i].kind != Wire::Kind::kept || wires[i].index != i) return false;
+    return true;
+}
+
 }  // namespace
 
 Rebuild::Rebuild(const Module& old_module, const Module& new_module,
@@ -164,6 +173,22 @@ std::vector<std::uint32_t> Rebuild::canonical_order(const std::vector<bool>& wan
     return order;
 }
 
+bool Rebuild::is_unchanged_by_copies() const
+{
+    const Graph& graph_of_old = old().graph;
+    const auto uses = use_counts(graph_of_old, old().result);
+    std::vector<bool> is_read(old().inputs.size());
+    for (const ExprId id : graph_of_old.ids()) {
+        const Expr& expr = graph_of_old[id];
+        if (uses[id] == 0) return false;
+        if (expr.op == Op::input) is_read[expr.aux] = true;
+        if (expr.op == Op::call && !is_same_order((*wires_)[expr.aux], expr.count)) return false;
+    }
+    for (std::size_t i = 0; i < is_read.size(); ++i)
+        if (!is_read[i] && !(is_root_ && old().inputs[i].origin == Origin::argument)) return false;
+    return true;
+}
+
 std::pair<Function, std::vector<Wire>> Rebuild::finish()
 {
     const ExprId result = moved(old().result);
@@ -176,8 +201,7 @@ std::pair<Function, std::vector<Wire>> Rebuild::finish()
     for (const ExprId id : graph.ids())
         if (graph[id].op == Op::input && uses[id] > 0) wanted[graph[id].aux] = true;
 
-    Function function = old();
-    function.inputs.clear();
+    Function function = without_body(old());
     std::vector<Wire> wires;
     std::vector<std::uint32_t> place_of(slots_.size());
     for (const std::uint32_t index : canonical_order(wanted)) {
@@ -186,7 +210,6 @@ std::pair<Function, std::vector<Wire>> Rebuild::finish()
         wires.push_back(slots_[index].wire);
     }
 
-    function.graph = {};
     Facts<Expr, ExprId> compacted(graph.size());
     std::vector<ExprId> operands;
     for (const ExprId id : graph.ids()) {
@@ -214,13 +237,21 @@ std::vector<bool> root_flags(const Module& module)
 Module rewrite(const Module& module, const Pass& pass)
 {
     const std::vector<bool> is_root = root_flags(module);
-    Module result = module;
-    result.functions.clear();
+    Module result = without_functions(module);
+    result.functions.reserve(module.functions.size());
     std::vector<std::vector<Wire>> wires;
     for (std::size_t i = 0; i < module.functions.size(); ++i) {
         Rebuild rebuild{module, result, wires, FunctionId{i}, is_root[i]};
         const Step step = pass(rebuild);
-        for (const ExprId id : rebuild.old().graph.ids()) rebuild.place(id, step(id));
+        if (!step && rebuild.is_unchanged_by_copies()) {
+            result.functions.push_back(module.functions[i]);
+            auto& same = wires.emplace_back();
+            for (std::uint32_t k = 0; k < module.functions[i].inputs.size(); ++k)
+                same.push_back({Wire::Kind::kept, k});
+            continue;
+        }
+        for (const ExprId id : rebuild.old().graph.ids())
+            rebuild.place(id, step ? step(id) : rebuild.copy(id));
         auto [function, function_wires] = rebuild.finish();
         result.functions.push_back(std::move(function));
         wires.push_back(std::move(function_wires));

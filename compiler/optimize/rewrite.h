@@ -67,6 +67,10 @@ public:
     std::function<void()> finished;
 
     void place(ir::ExprId old_id, ir::ExprId new_id);
+    /// True when nothing would change if every expression became its copy: all is read, and every
+    /// callee is called as before.
+    bool is_unchanged_by_copies() const;
+
     /// The function with its dead expressions and unused inputs gone, and how to call it.
     std::pair<ir::Function, std::vector<Wire>> finish();
 
@@ -92,10 +96,19 @@ private:
 /// real numbers, of the same value. Called in order of ids, for every expression.
 using Step = std::function<ir::ExprId(ir::ExprId old_id)>;
 
-/// Looks at a function before it is rebuilt and decides on its step.
+/// Looks at a function before it is rebuilt and decides on its step. No step: every expression
+/// becomes its copy.
 using Pass = std::function<Step(Rebuild&)>;
 
 ir::Module rewrite(const ir::Module& module, const Pass& pass);
+
+template <class Holds>
+bool any_expression(const ir::Graph& graph, Holds holds)
+{
+    for (const ir::ExprId id : graph.ids())
+        if (holds(id)) return true;
+    return false;
+}
 
 /// Which functions are roots, by index.
 std::vector<bool> root_flags(const ir::Module& module);

@@ -239,9 +239,10 @@ Subject subject(const Module& module, const Function& function, std::vector<bool
     result.function = &function;
     result.sums = expand_sums(function.graph);
     for (const ExprId id : function.graph.ids())
-        if (function.graph[id].type == Type::scalar)
-            result.first_of.try_emplace(result.sums[id], id);
-    result.ranges = evaluate::ranges(module, function, evaluate::declared_ranges(function));
+        if (result.sums[id].size() > 1) {
+            result.ranges = evaluate::ranges(module, function, evaluate::declared_ranges(function));
+            break;
+        }
     result.complemented = std::move(complemented);
     return result;
 }

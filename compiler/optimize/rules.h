@@ -26,7 +26,6 @@
 #include "ir/module.h"
 #include "optimize/sum.h"
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -70,8 +69,7 @@ struct Match {
 struct Subject {
     const ir::Function* function = nullptr;
     Facts<ir::Expr, Sum> sums;
-    std::map<Sum, ir::ExprId> first_of;  ///< the first scalar expression that is this sum
-    Facts<ir::Expr, evaluate::Interval> ranges;
+    Facts<ir::Expr, evaluate::Interval> ranges;  ///< none where there is no sum of two or more
     std::vector<bool> complemented;  ///< by input: an argument whose complement is to be had
 };
 Subject subject(const ir::Module& module, const ir::Function& function,

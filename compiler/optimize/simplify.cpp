@@ -97,20 +97,48 @@ Step simplify_function(Rebuild& rebuild)
     };
 }
 
-}  // namespace
+/// Which functions differ between two modules, or call one that does.
+std::vector<bool> changed(const Module& before, const Module& after)
+{
+    std::vector<bool> result;
+    for (std::size_t i = 0; i < after.functions.size(); ++i) {
+        const Function& function = after.functions[i];
+        result.push_back(!same_function(before.functions[i], function) ||
+                         any_expression(function.graph, [&](ExprId id) {
+                             const Expr& expr = function.graph[id];
+                             return expr.op == Op::call && result[expr.aux];
+                         }));
+    }
+    return result;
+}
 
-Module simplify(const Module& module)
+Module simplify_where(std::vector<bool> open, const Module& module)
 {
     // A fold may expose another one to the left of it, or sharpen a range. Every round removes
     // something or is the last; the bound is for the reader's peace of mind.
     constexpr int most_rounds = 32;
     Module current = module;
-    for (int round = 0; round < most_rounds; ++round) {
-        Module next = rewrite(current, simplify_function);
-        if (same_graphs(current, next)) return next;
+    for (int round = 0; round < most_rounds && std::ranges::find(open, true) != open.end();
+         ++round) {
+        Module next = rewrite(current, [&open](Rebuild& rebuild) {
+            return open[rebuild.id().index] ? simplify_function(rebuild) : Step{};
+        });
+        open = changed(current, next);
         current = std::move(next);
     }
     return current;
+}
+
+}  // namespace
+
+Module simplify(const Module& module)
+{
+    return simplify_where(std::vector<bool>(module.functions.size(), true), module);
+}
+
+Module simplify_again(const Module& simple, const Module& module)
+{
+    return simplify_where(changed(simple, module), module);
 }
 
 }  // namespace lobe::optimize

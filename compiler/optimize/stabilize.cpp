@@ -126,9 +126,12 @@ private:
 
     std::optional<ExprId> find(const Sum& wanted, ExprId before)
     {
-        const auto found = subject_.first_of.find(wanted);
-        if (found == subject_.first_of.end() || before <= found->second) return std::nullopt;
-        return read(found->second);
+        const Graph& old = rebuild_.old().graph;
+        for (const ExprId id : old.ids()) {
+            if (before <= id) break;
+            if (old[id].type == Type::scalar && subject_.sums[id] == wanted) return read(id);
+        }
+        return std::nullopt;
     }
 
     Rebuild& rebuild_;
@@ -182,6 +185,8 @@ Module stabilize_once(const Module& module, std::vector<Application>& log)
         };
         auto found = subject(rebuild.old_module(), rebuild.old(), complemented);
         auto matches = match_rules(found);
+        const auto has_rule = [&](ExprId id) { return matches[id].has_value(); };
+        if (!any_expression(rebuild.old().graph, has_rule)) return {};
         const auto reads =
             std::make_shared<Facts<Expr, std::vector<ExprId>>>(rebuild.old().graph.size());
         const auto known = std::make_shared<const Subject>(std::move(found));
