@@ -5,7 +5,7 @@
 
 namespace lobe::check {
 
-Analysis::Analysis(const Flat& flat) : function_(flat.function)
+Analysis::Analysis(Flat flat) : function_(std::move(flat.function))
 {
     function_.result = flat.roots.back();
     traced_ = evaluate::compile_traced({}, function_);

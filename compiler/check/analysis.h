@@ -17,7 +17,7 @@ using Box = std::vector<Interval>;
 /// A flat body as a tape whose outputs are the components of its roots.
 class Analysis {
 public:
-    explicit Analysis(const Flat& flat);
+    explicit Analysis(Flat flat);
 
     const std::vector<evaluate::TapeInput>& inputs() const { return traced_.tape.inputs; }
     const ir::Function& function() const { return function_; }
