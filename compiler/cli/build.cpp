@@ -31,10 +31,9 @@ struct Build {
         if (program.status != success) return program.status;
 
         std::vector<OutputFile> files;
-        for (const ir::Module& module : program.modules)
-            for (emit::Artifact& artifact : back(middle(module), program.sources, targets))
-                files.push_back({(std::filesystem::path{output} / artifact.path).generic_string(),
-                                 std::move(artifact.text)});
+        for (emit::Artifact& artifact : cli::build(program, targets))
+            files.push_back({(std::filesystem::path{output} / artifact.path).generic_string(),
+                             std::move(artifact.text)});
         return check ? compare(files) : write(terminal, files);
     }
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <thread>
 
 namespace lobe::cli {
 namespace fs = std::filesystem;
@@ -67,6 +69,28 @@ Program load(const Terminal& terminal, const std::vector<std::string>& inputs)
             program.status = findings;
     }
     return program;
+}
+
+std::vector<emit::Artifact> build(const Program& program,
+                                  const std::vector<const emit::Target*>& targets)
+{
+    const auto& modules = program.modules;
+    std::vector<std::vector<emit::Artifact>> built(modules.size());
+    // A fixed stride: what a thread does depends on nothing but the number of threads.
+    const std::size_t count = std::clamp<std::size_t>(
+        modules.size(), 1, std::max(1U, std::thread::hardware_concurrency()));
+    const auto work = [&](std::size_t first) {
+        for (std::size_t i = first; i < modules.size(); i += count)
+            built[i] = back(middle(modules[i]), program.sources, targets);
+    };
+    std::vector<std::thread> threads;
+    for (std::size_t i = 1; i < count; ++i) threads.emplace_back(work, i);
+    work(0);
+    for (std::thread& thread : threads) thread.join();
+
+    std::vector<emit::Artifact> artifacts;
+    for (auto& files : built) std::ranges::move(files, std::back_inserter(artifacts));
+    return artifacts;
 }
 
 }  // namespace lobe::cli

@@ -26,4 +26,8 @@ struct Program {
 /// read is E0001 and makes the status `broken`.
 Program load(const Terminal& terminal, const std::vector<std::string>& inputs);
 
+/// Every module for every target, in this order. Each module is compiled on a thread of its own.
+std::vector<emit::Artifact> build(const Program& program,
+                                  const std::vector<const emit::Target*>& targets);
+
 }  // namespace lobe::cli
