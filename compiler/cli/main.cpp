@@ -11,7 +11,8 @@ int main(int argc, char** argv)
 {
     using namespace lobe::cli;
 
-    // A file that grows past a limit is an error to report, like a full disk, not a signal to die of.
+    // A file that grows past a limit is an error to report, like a full disk, not a signal to die
+    // of.
     std::signal(SIGXFSZ, SIG_IGN);
 
     CLI::App app{"lobec: a compiler for BRDF terms.\n"

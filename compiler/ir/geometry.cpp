@@ -146,7 +146,8 @@ ExprId expand(Graph& graph, GeometryField field, const Frame& frame)
     case GeometryField::one_minus_cos_d: {
         const ExprId chord = graph.apply(Op::subtract, {frame.l, frame.v});
         const ExprId cos = field_of(GeometryField::cos_d);
-        const ExprId quarter = graph.apply(Op::multiply, {graph.literal("0.25"), dot(chord, chord)});
+        const ExprId quarter =
+            graph.apply(Op::multiply, {graph.literal("0.25"), dot(chord, chord)});
         return saturate(graph.apply(Op::divide, {quarter, graph.apply(Op::add, {one(), cos})}));
     }
     }

@@ -31,21 +31,43 @@
 namespace lobe::ir {
 
 enum class GeometryField : std::uint8_t {
-    l, v, n, x, y, h,
-    cos_i, cos_o, cos_h, cos_d, v_dot_l,
-    x_dot_l, y_dot_l, x_dot_v, y_dot_v, x_dot_h, y_dot_h,
-    sin2_h, one_minus_cos_h, one_minus_cos_d,
+    l,
+    v,
+    n,
+    x,
+    y,
+    h,
+    cos_i,
+    cos_o,
+    cos_h,
+    cos_d,
+    v_dot_l,
+    x_dot_l,
+    y_dot_l,
+    x_dot_v,
+    y_dot_v,
+    x_dot_h,
+    y_dot_h,
+    sin2_h,
+    one_minus_cos_h,
+    one_minus_cos_d,
 };
 
 enum class SurfaceField : std::uint8_t {
-    base_color, metallic, specular, roughness, alpha, diffuse_color, f0,
+    base_color,
+    metallic,
+    specular,
+    roughness,
+    alpha,
+    diffuse_color,
+    f0,
 };
 
 /// What is known of a field without looking at any model.
 struct FieldFacts {
     std::string_view name;
     Type type{};
-    double low = 0;   ///< of every component
+    double low = 0;  ///< of every component
     double high = 0;
     bool nameable = true;  ///< false for the stable fields
     std::string_view doc;

@@ -31,14 +31,28 @@ enum class Op : std::uint8_t {
 #undef LOBE_OP
 };
 
-enum class Shape : std::uint8_t { leaf, each, compare, logic, reduce, vector, list };
+enum class Shape : std::uint8_t {
+    leaf,
+    each,
+    compare,
+    logic,
+    reduce,
+    vector,
+    list
+};
 
 int arity(Op op);
 Shape shape(Op op);
 std::string_view name(Op op);
 
 /// What a value is made of. What it *means* (a color, a direction) is `Quantity`, in module.h.
-enum class Type : std::uint8_t { boolean, scalar, vec2, vec3, vec4 };
+enum class Type : std::uint8_t {
+    boolean,
+    scalar,
+    vec2,
+    vec3,
+    vec4
+};
 
 /// Components of a type: 1 for booleans and scalars.
 int components(Type type);

@@ -17,7 +17,14 @@
 namespace lobe::ir {
 
 /// What a value means; `Type` is only what it is made of. Colors and directions never mix.
-enum class Quantity : std::uint8_t { number, integer, boolean, vector, color, direction };
+enum class Quantity : std::uint8_t {
+    number,
+    integer,
+    boolean,
+    vector,
+    color,
+    direction
+};
 
 /// Closed interval of every component. Infinite ends mean: unbounded.
 struct Range {
@@ -56,24 +63,28 @@ struct Citation {
 
 /// A term, a form of one, or one output of a model.
 struct Function {
-    enum class Kind : std::uint8_t { term, form, output };
+    enum class Kind : std::uint8_t {
+        term,
+        form,
+        output
+    };
 
-    std::string name;    ///< unique in the module: `D_GGX`, `F_Schlick_spherical_gaussian`,
-                         ///< `callisto_diffuse`
+    std::string name;  ///< unique in the module: `D_GGX`, `F_Schlick_spherical_gaussian`,
+                       ///< `callisto_diffuse`
     Kind kind{};
     std::string module;  ///< the module that declared it
     std::string doc;     ///< without the citations; may be empty
     std::vector<Citation> citations;
-    Span span;           ///< of its name
+    Span span;  ///< of its name
     std::vector<Input> inputs;
     Graph graph;
     ExprId result;
-    Quantity quantity{};         ///< of the result
+    Quantity quantity{};                  ///< of the result
     std::optional<Range> declared_range;  ///< `-> float in [0, 2]`, proved by the checker
     Range range{};                        ///< proved: declared, or inferred
-    FunctionId form_of;          ///< for a form: its term
-    std::string form_name;       ///< for a form: `spherical_gaussian`
-    std::string formula;         ///< the body as written, on one line, for doc comments
+    FunctionId form_of;                   ///< for a form: its term
+    std::string form_name;                ///< for a form: `spherical_gaussian`
+    std::string formula;                  ///< the body as written, on one line, for doc comments
 
     Type type() const { return graph[result].type; }
 
@@ -104,7 +115,7 @@ struct Source {
 /// `effect "Name" off when condition`: the condition is a function over parameters alone.
 struct Effect {
     std::string name;
-    FunctionId off_when;  ///< boolean result; kind `term`, not emitted
+    FunctionId off_when;    ///< boolean result; kind `term`, not emitted
     std::string condition;  ///< as written
     Span span;
 };
@@ -131,7 +142,7 @@ struct Module {
     std::vector<Parameter> parameters;
     std::vector<Function> functions;  ///< callees first; imported ones included
     std::vector<Effect> effects;
-    std::vector<Model> models;        ///< this module's own
+    std::vector<Model> models;  ///< this module's own
 
     const Function& operator[](FunctionId id) const { return functions[id.index]; }
     std::optional<FunctionId> find(std::string_view function_name) const;

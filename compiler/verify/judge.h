@@ -24,8 +24,15 @@ struct Verdict {
     std::string text;                  ///< of a cross-compile
 };
 
-enum class Dialect { glsl, essl, hlsl };
-enum class Stage { fragment, compute };
+enum class Dialect {
+    glsl,
+    essl,
+    hlsl
+};
+enum class Stage {
+    fragment,
+    compute
+};
 
 /// glslang, with `nan-clamp`. Vulkan 1.1, SPIR-V 1.3 rules; `entry` is for HLSL.
 Verdict compile(std::string_view text, Dialect dialect, Stage stage,
@@ -45,7 +52,12 @@ Verdict optimize(std::span<const std::uint32_t> spirv);
 /// for a check that must not be re-associated. Production text stays free.
 std::vector<std::uint32_t> forbid_contraction(std::span<const std::uint32_t> spirv);
 
-enum class CrossTarget { glsl450, essl310, hlsl50, msl21 };
+enum class CrossTarget {
+    glsl450,
+    essl310,
+    hlsl50,
+    msl21
+};
 Verdict cross_compile(std::span<const std::uint32_t> spirv, CrossTarget target);
 
 }  // namespace lobe::verify
