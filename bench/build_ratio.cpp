@@ -53,8 +53,7 @@ int main(int argc, char** argv)
     using namespace lobe;
     const std::string models = argc > 1 ? argv[1] : "models";
     const cli::Terminal terminal;
-    std::vector<const emit::Target*> targets;
-    for (const emit::Target& target : emit::targets()) targets.push_back(&target);
+    const std::vector<const emit::Target*> targets = cli::choose_targets({});
 
     std::vector<emit::Artifact> artifacts;  // per module, one per target
     const auto load = [&] {

@@ -2,10 +2,10 @@
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/program.h"
+#include "lobe/lobe.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -21,17 +21,12 @@ struct Build {
 
     int run(const Terminal& terminal) const
     {
-        std::vector<const emit::Target*> targets;
-        for (const emit::Target& target : emit::targets())
-            if (target_names.empty() || std::ranges::count(target_names, target.name) > 0)
-                targets.push_back(&target);
-
         const Program program = load(terminal, inputs);
         print(terminal, program.diagnostics, program.sources);
         if (program.status != success) return program.status;
 
         std::vector<OutputFile> files;
-        for (emit::Artifact& artifact : cli::build(program, targets))
+        for (emit::Artifact& artifact : cli::build(program, choose_targets(target_names)))
             files.push_back({(std::filesystem::path{output} / artifact.path).generic_string(),
                              std::move(artifact.text)});
         return check ? compare(files) : write(terminal, files);
@@ -54,10 +49,10 @@ struct Build {
         int stale = 0;
         for (const OutputFile& file : files) {
             expected.insert(file.path);
-            const auto old = read_file(file.path, file.text.size() + 1);
-            if (old.text && *old.text == file.text) continue;
+            if (holds(file)) continue;
             ++stale;
-            fmt::print("{} is {}\n", file.path, old.why == "no such file" ? "missing" : "stale");
+            fmt::print("{} is {}\n", file.path,
+                       std::filesystem::exists(file.path) ? "stale" : "missing");
         }
         for (const std::string& path : files_below(output)) {
             const std::string whole = (std::filesystem::path{output} / path).generic_string();
@@ -75,11 +70,9 @@ void add_build(CLI::App& app, const Terminal& terminal, int& status)
 {
     auto* command = app.add_subcommand("build", "Compile models to shader files");
     auto build = std::make_shared<Build>();
-    std::vector<std::string> names;
-    for (const emit::Target& target : emit::targets()) names.push_back(target.name);
     command->add_option("FILE", build->inputs, "A .lobe file, or a folder of them")->required();
     command->add_option("-t,--target", build->target_names, "Targets (default: all)")
-        ->check(CLI::IsMember(names))
+        ->check(CLI::IsMember(lobe::target_names()))
         ->delimiter(',');
     command->add_option("-o,--output", build->output, "The folder to write into")
         ->capture_default_str();

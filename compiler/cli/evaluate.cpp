@@ -46,20 +46,15 @@ struct Evaluate {
         std::istream& in = table == "-" ? std::cin : file;
 
         if (output == "-")
-            return finish(terminal, evaluate(module, *function, *kind, in, std::cout));
+            return finish(terminal,
+                          analyze::evaluate_table(module, *function, *kind, in, std::cout));
         // Nothing half-written: the file appears only when the whole table is computed.
         std::ostringstream whole;
-        const int status = finish(terminal, evaluate(module, *function, *kind, in, whole));
+        const int status =
+            finish(terminal, analyze::evaluate_table(module, *function, *kind, in, whole));
         if (status != success) return status;
         const Written written = write_files({{output, whole.str()}});
         return written.why.empty() ? success : fail(terminal, written.why);
-    }
-
-    static analyze::TableOutcome evaluate(const ir::Module& module, ir::FunctionId function,
-                                          analyze::NumberKind kind, std::istream& in,
-                                          std::ostream& out)
-    {
-        return analyze::evaluate_table(module, function, kind, in, out);
     }
 
     int finish(const Terminal& terminal, const analyze::TableOutcome& outcome) const

@@ -41,10 +41,9 @@ check::Loader folder_loader()
 {
     return [](Sources& sources, std::string_view module,
               std::string_view importing) -> std::optional<std::uint32_t> {
-        constexpr std::size_t limit = std::size_t{8} << 20;
         const fs::path path =
             fs::path{importing}.parent_path() / fs::path{std::string{module} + ".lobe"};
-        auto read = read_file(path.string(), limit);
+        auto read = read_file(path.string(), largest_source);
         if (!read.text) return std::nullopt;
         return sources.add(path.generic_string(), std::move(*read.text));
     };
@@ -125,13 +124,17 @@ private:
 
 }  // namespace
 
+bool holds(const OutputFile& file)
+{
+    return read_file(file.path, file.text.size() + 1).text == file.text;
+}
+
 Written write_files(const std::vector<OutputFile>& files)
 {
     Written result;
     Staging staging;
     for (const OutputFile& file : files) {
-        const auto old = read_file(file.path, std::max<std::size_t>(file.text.size(), 1) + 1);
-        if (old.text && *old.text == file.text) {
+        if (holds(file)) {
             ++result.unchanged;
             continue;
         }

@@ -17,6 +17,10 @@ struct Read {
 };
 Read read_file(const std::string& path, std::size_t limit);
 
+/// How much of a source is read at most. More than the parser takes, so that a file in between is
+/// refused by it, with its own message (E0003).
+inline constexpr std::size_t largest_source = std::size_t{64} << 20;
+
 /// Finds `<module>.lobe` in the folder of the importing file.
 check::Loader folder_loader();
 
@@ -24,6 +28,9 @@ struct OutputFile {
     std::string path;
     std::string text;
 };
+
+/// True when the file is there and its text is already this one.
+bool holds(const OutputFile& file);
 
 struct Written {
     int written = 0;

@@ -28,8 +28,7 @@ struct Format {
         Sources sources;
         Diagnostics diagnostics;
         for (const std::string& path : *paths) {
-            constexpr std::size_t limit = std::size_t{64} << 20;
-            auto read = read_file(path, limit);
+            auto read = read_file(path, largest_source);
             if (!read.text)
                 return fail(terminal, fmt::format("cannot read `{}`: {}", path, read.why));
             const auto source = sources.add(path, std::move(*read.text));
@@ -55,8 +54,7 @@ struct Format {
             return success;
         }
         for (const OutputFile& file : files) {
-            const auto old = read_file(file.path, file.text.size() + 1);
-            if (old.text && *old.text == file.text) continue;
+            if (holds(file)) continue;
             fmt::print("{} is not in canonical form\n", file.path);
             status = findings;
         }

@@ -12,13 +12,6 @@
 namespace lobe::cli {
 namespace fs = std::filesystem;
 
-namespace {
-
-// A source is text that a person wrote; the parser refuses more than this too (E0003).
-constexpr std::size_t largest_source = std::size_t{64} << 20;
-
-}  // namespace
-
 std::optional<std::vector<std::string>> expand_inputs(const Terminal& terminal,
                                                       const std::vector<std::string>& inputs)
 {
@@ -69,6 +62,14 @@ Program load(const Terminal& terminal, const std::vector<std::string>& inputs)
             program.status = findings;
     }
     return program;
+}
+
+std::vector<const emit::Target*> choose_targets(const std::vector<std::string>& names)
+{
+    std::vector<const emit::Target*> chosen;
+    for (const emit::Target& target : emit::targets())
+        if (names.empty() || std::ranges::count(names, target.name) > 0) chosen.push_back(&target);
+    return chosen;
 }
 
 std::vector<emit::Artifact> build(const Program& program,

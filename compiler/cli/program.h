@@ -30,4 +30,7 @@ Program load(const Terminal& terminal, const std::vector<std::string>& inputs);
 std::vector<emit::Artifact> build(const Program& program,
                                   const std::vector<const emit::Target*>& targets);
 
+/// The targets that `--target` names, in the order of the table; all when it names none.
+std::vector<const emit::Target*> choose_targets(const std::vector<std::string>& names);
+
 }  // namespace lobe::cli

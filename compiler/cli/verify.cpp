@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/program.h"
+#include "lobe/lobe.h"
 #include "report/verification.h"
 
 #include <fmt/format.h>
@@ -42,15 +43,6 @@ struct Verify {
                            : verify(terminal, program.sources, modules);
     }
 
-    std::vector<const emit::Target*> targets() const
-    {
-        std::vector<const emit::Target*> result;
-        for (const emit::Target& target : emit::targets())
-            if (target_names.empty() || std::ranges::count(target_names, target.name) > 0)
-                result.push_back(&target);
-        return result;
-    }
-
     int verify(const Terminal& terminal, const Sources& sources,
                const std::vector<ir::Module>& modules) const
     {
@@ -60,7 +52,7 @@ struct Verify {
             Progress progress{terminal};
             for (std::size_t i = 0; i < modules.size(); ++i) {
                 analyze::VerifyOptions options;
-                options.targets = targets();
+                options.targets = choose_targets(target_names);
                 options.precisions.clear();
                 for (const emit::Precision precision :
                      {emit::Precision::float32, emit::Precision::float16})
@@ -111,7 +103,7 @@ struct Verify {
         analyze::KillOptions options;
         options.mutants = mutants;
         options.points = points;
-        if (!target_names.empty()) options.targets = targets();
+        if (!target_names.empty()) options.targets = choose_targets(target_names);
         options.device = device;
         options.jobs = jobs;
 
@@ -124,12 +116,11 @@ struct Verify {
             report = analyze::kill(subjects, options);
         }
         if (!report.no_device.empty()) return fail(terminal, report.no_device);
-        return print_kills(terminal, sources, report);
+        return print_kills(terminal, report);
     }
 
     /// One row per kind of mutation, then every mutant that lived, by name.
-    int print_kills(const Terminal& terminal, const Sources&,
-                    const analyze::KillReport& report) const
+    int print_kills(const Terminal& terminal, const analyze::KillReport& report) const
     {
         using analyze::Fate;
         constexpr Fate fates[] = {Fate::killed, Fate::rejected, Fate::equivalent, Fate::unchanged,
@@ -183,11 +174,9 @@ void add_verify(CLI::App& app, const Terminal& terminal, int& status)
     auto* command = app.add_subcommand(
         "verify", "Validate, execute and cross-check every output against the evaluator");
     auto verify = std::make_shared<Verify>();
-    std::vector<std::string> names;
-    for (const emit::Target& target : emit::targets()) names.push_back(target.name);
     command->add_option("FILE", verify->inputs, "A .lobe file, or a folder of them")->required();
     command->add_option("-t,--target", verify->target_names, "Targets (default: all)")
-        ->check(CLI::IsMember(names))
+        ->check(CLI::IsMember(lobe::target_names()))
         ->delimiter(',');
     command->add_option("--precision", verify->precisions, "float32, float16 (default: both)")
         ->check(CLI::IsMember({"float32", "float16"}))
