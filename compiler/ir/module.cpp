@@ -34,6 +34,22 @@ std::vector<FunctionId> Module::roots() const
     return result;
 }
 
+std::vector<FunctionId> Module::packing_roots() const
+{
+    std::vector<FunctionId> result;
+    for (const Packing& packing : packings) {
+        for (const auto& channel : packing.channels) result.push_back(channel.pack);
+        for (const auto& parameter : packing.parameters) result.push_back(parameter.unpack);
+    }
+    return result;
+}
+
+const Gbuffer* Module::find_gbuffer(std::string_view gbuffer_name) const
+{
+    const auto found = std::ranges::find(gbuffers, gbuffer_name, &Gbuffer::name);
+    return found == gbuffers.end() ? nullptr : &*found;
+}
+
 std::vector<FunctionId> Module::reachable(const std::vector<FunctionId>& from) const
 {
     std::vector<bool> wanted(functions.size());
@@ -63,7 +79,10 @@ Module without_functions(const Module& module)
             .parameters = module.parameters,
             .functions = {},
             .effects = module.effects,
-            .models = module.models};
+            .models = module.models,
+            .gbuffers = module.gbuffers,
+            .packings = module.packings,
+            .engines = module.engines};
 }
 
 Function without_body(const Function& function)

@@ -7,31 +7,16 @@
 // recursion cannot be expressed.
 #pragma once
 
+#include "ir/declarations.h"
 #include "ir/geometry.h"
 #include "ir/graph.h"
+#include "ir/packing.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lobe::ir {
-
-/// What a value means; `Type` is only what it is made of. Colors and directions never mix.
-enum class Quantity : std::uint8_t {
-    number,
-    integer,
-    boolean,
-    vector,
-    color,
-    direction
-};
-
-/// Closed interval of every component. Infinite ends mean: unbounded.
-struct Range {
-    double low;
-    double high;
-    friend bool operator==(const Range&, const Range&) = default;
-};
 
 /// Where the value of an input comes from.
 enum class Origin : std::uint8_t {
@@ -92,45 +77,12 @@ struct Function {
     std::optional<std::uint32_t> find_input(Origin origin, std::uint32_t which) const;
 };
 
-struct Parameter {
-    std::string name;
-    Type type{};
-    Quantity quantity{};
-    Range range{};
-    std::vector<double> default_value;  ///< one per component
-    std::string tier;                   ///< empty when none was given
-    std::string label;
-    std::string doc;
-    std::string module;
-    Span span;
-};
-
-/// `source slides = "…"`
-struct Source {
-    std::string name;
-    std::string text;
-    Span span;
-};
-
 /// `effect "Name" off when condition`: the condition is a function over parameters alone.
 struct Effect {
     std::string name;
     FunctionId off_when;    ///< boolean result; kind `term`, not emitted
     std::string condition;  ///< as written
     Span span;
-};
-
-struct ModelOutput {
-    std::string name;  ///< `diffuse`
-    FunctionId function;
-};
-
-struct Model {
-    std::string name;
-    std::string doc;
-    std::string module;
-    Span span;
-    std::vector<ModelOutput> outputs;
 };
 
 struct Module {
@@ -142,7 +94,10 @@ struct Module {
     std::vector<Parameter> parameters;
     std::vector<Function> functions;  ///< callees first; imported ones included
     std::vector<Effect> effects;
-    std::vector<Model> models;  ///< this module's own
+    std::vector<Model> models;      ///< this module's own
+    std::vector<Gbuffer> gbuffers;  ///< its own, and those that its packings and engines name
+    std::vector<Packing> packings;  ///< its own
+    std::vector<Engine> engines;    ///< its own
 
     const Function& operator[](FunctionId id) const { return functions[id.index]; }
     std::optional<FunctionId> find(std::string_view function_name) const;
@@ -151,6 +106,10 @@ struct Module {
     /// What callers of a library may call: the outputs of its models, or, when there is none,
     /// its own terms and forms. Nothing else is emitted unless one of these calls it.
     std::vector<FunctionId> roots() const;
+    /// The functions that pack and unpack (see packing.h), in order of packings. Emitted in a file
+    /// of their own; like roots they keep the inputs that they were made with.
+    std::vector<FunctionId> packing_roots() const;
+    const Gbuffer* find_gbuffer(std::string_view gbuffer_name) const;
     /// `roots` and everything they call, callees first.
     std::vector<FunctionId> reachable(const std::vector<FunctionId>& from) const;
 };

@@ -231,6 +231,7 @@ std::vector<bool> root_flags(const Module& module)
 {
     std::vector<bool> flags(module.functions.size());
     for (const FunctionId id : module.roots()) flags[id.index] = true;
+    for (const FunctionId id : module.packing_roots()) flags[id.index] = true;
     return flags;
 }
 

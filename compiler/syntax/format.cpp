@@ -236,9 +236,24 @@ private:
         out_ += "}";
     }
 
-    void write(const ReservedItem&)
+    void write(const GbufferItem&)
     {
-        assert(false && "a tree with reserved blocks has errors, so it is not formatted");
+        assert(false && "not parsed yet");
+    }
+
+    void write(const CodeItem&)
+    {
+        assert(false && "not parsed yet");
+    }
+
+    void write(const PackingItem&)
+    {
+        assert(false && "not parsed yet");
+    }
+
+    void write(const EngineItem&)
+    {
+        assert(false && "not parsed yet");
     }
 
     // ---- pieces of items

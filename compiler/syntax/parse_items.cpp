@@ -139,7 +139,10 @@ std::optional<Parser::ItemNode> Parser::parse_item_node(std::string_view keyword
     if (keyword == "term") return named(parse_term(item));
     if (keyword == "effect") return parse_effect();
     if (keyword == "model") return named(parse_model(item));
-    if (keyword == "packing" || keyword == "engine") return parse_reserved(word);
+    if (keyword == "packing" || keyword == "engine") {
+        parse_reserved(word);
+        return std::nullopt;
+    }
 
     if (keyword == "form") {
         Diagnostic result = misplaced(span(word), "this form belongs to no term");
@@ -347,9 +350,8 @@ ModelItem Parser::parse_model(Item& item)
 }
 
 /// packing and engine blocks: whatever they hold, up to the brace that closes them.
-ReservedItem Parser::parse_reserved(const Token& keyword)
+void Parser::parse_reserved(const Token& keyword)
 {
-    ReservedItem result{{std::string{text(keyword)}, span(keyword)}};
     Diagnostic reserved;
     reserved.code = Code::reserved_block;
     reserved.message = fmt::format("`{}` blocks are not compiled by this edition", text(keyword));
@@ -369,7 +371,6 @@ ReservedItem Parser::parse_reserved(const Token& keyword)
     }
     take_comments();
     skipping_ = false;
-    return result;
 }
 
 }  // namespace lobe::syntax

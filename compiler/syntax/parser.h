@@ -77,7 +77,7 @@ private:
     Form parse_form();
     EffectItem parse_effect();
     ModelItem parse_model(Item& item);
-    ReservedItem parse_reserved(const Token& keyword);
+    void parse_reserved(const Token& keyword);
     std::vector<ParameterClause> parse_parameters();
     TypeClause parse_type();
     Body parse_body();

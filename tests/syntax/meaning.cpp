@@ -140,7 +140,10 @@ public:
             text += fmt::format("{} = {}; ", output.name.text, read(output.value));
         return text;
     }
-    std::string read(const ReservedItem& node) const { return "reserved " + node.keyword.text; }
+    std::string read(const GbufferItem&) const { return "GbufferItem"; }
+    std::string read(const CodeItem&) const { return "CodeItem"; }
+    std::string read(const PackingItem&) const { return "PackingItem"; }
+    std::string read(const EngineItem&) const { return "EngineItem"; }
 
 private:
     const Tree& tree_;
