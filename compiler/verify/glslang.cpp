@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace lobe::verify {
@@ -172,8 +174,39 @@ std::optional<Message> misstated_version(std::string_view text, Dialect dialect,
     return std::nullopt;
 }
 
+/// Hands glslang the texts it asks for. It knows no `#pragma once`, so a file that has one is
+/// empty from the second time on.
+class Includer : public glslang::TShader::Includer {
+public:
+    explicit Includer(const Includes& includes) : includes_(includes) {}
+
+    IncludeResult* includeLocal(const char* name, const char*, std::size_t depth) override
+    {
+        constexpr std::size_t deepest = 64;  // a file that includes itself would never end
+        if (!includes_ || depth > deepest) return nullptr;
+        std::optional<std::string> text = includes_(name);
+        if (!text) return nullptr;
+        if (text->find("#pragma once") != text->npos && !once_.insert(name).second) text->clear();
+        const auto& kept = texts_.emplace_back(std::make_unique<std::string>(std::move(*text)));
+        results_.push_back(
+            std::make_unique<IncludeResult>(name, kept->data(), kept->size(), nullptr));
+        return results_.back().get();
+    }
+    IncludeResult* includeSystem(const char* name, const char* from, std::size_t depth) override
+    {
+        return includeLocal(name, from, depth);
+    }
+    void releaseInclude(IncludeResult*) override {}  // all at the end
+
+private:
+    const Includes& includes_;
+    std::set<std::string> once_;
+    std::vector<std::unique_ptr<std::string>> texts_;
+    std::vector<std::unique_ptr<IncludeResult>> results_;
+};
+
 Verdict judge(std::string_view text, Dialect dialect, Stage stage, std::string_view entry,
-              Rules rules)
+              Rules rules, const Includes& includes = {})
 {
     initialize_once();
     Verdict verdict;
@@ -208,7 +241,8 @@ Verdict judge(std::string_view text, Dialect dialect, Stage stage, std::string_v
     const auto options = static_cast<EShMessages>(wanted);
 
     constexpr int unstated_version = 100;  // of no use: HLSL has its own, and others state it
-    bool ok = shader.parse(GetDefaultResources(), unstated_version, false, options);
+    Includer includer{includes};
+    bool ok = shader.parse(GetDefaultResources(), unstated_version, false, options, includer);
     append_log(shader.getInfoLog(), verdict.messages);
 
     // The program must go before the shader, whose memory it uses.
@@ -237,9 +271,10 @@ Verdict judge(std::string_view text, Dialect dialect, Stage stage, std::string_v
 
 }  // namespace
 
-Verdict compile(std::string_view text, Dialect dialect, Stage stage, std::string_view entry)
+Verdict compile(std::string_view text, Dialect dialect, Stage stage, std::string_view entry,
+                const Includes& includes)
 {
-    return judge(text, dialect, stage, entry, Rules::vulkan);
+    return judge(text, dialect, stage, entry, Rules::vulkan, includes);
 }
 
 Verdict parse_only(std::string_view text, Dialect dialect, Stage stage)

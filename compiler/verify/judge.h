@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,9 +36,13 @@ enum class Stage {
     compute
 };
 
-/// glslang, with `nan-clamp`. Vulkan 1.1, SPIR-V 1.3 rules; `entry` is for HLSL.
+/// The text of `#include "name"`; nothing if there is none. A file whose text says `#pragma once`
+/// is asked for once: the judge heeds it.
+using Includes = std::function<std::optional<std::string>(std::string_view name)>;
+
+/// glslang, with `nan-clamp`. Vulkan 1.1, SPIR-V 1.3 rules; `entry` and `includes` are for HLSL.
 Verdict compile(std::string_view text, Dialect dialect, Stage stage,
-                std::string_view entry = "main");
+                std::string_view entry = "main", const Includes& includes = {});
 
 /// glslang under OpenGL rules, for GLSL 3.30 and ESSL 3.00 which Vulkan does not take; parses
 /// and links, makes no SPIR-V for versions that have none.

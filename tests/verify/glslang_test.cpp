@@ -200,3 +200,26 @@ TEST_CASE("threads judge at the same time and agree")
     for (const auto& each : together) CHECK(each == alone);
     CHECK_FALSE(alone.front().empty());
 }
+
+TEST_CASE("includes are asked for by name, and once where they say so")
+{
+    int asked = 0;
+    const Includes includes = [&asked](std::string_view name) -> std::optional<std::string> {
+        if (name == "/Lib/Half.ush") {
+            ++asked;
+            return "#pragma once\nfloat Half() { return 0.5; }\n";
+        }
+        if (name == "Loop.ush") return "#include \"Loop.ush\"\n";
+        return std::nullopt;
+    };
+    const auto compile_with = [&includes](std::string_view line) {
+        return compile(std::string{line} + "#include \"/Lib/Half.ush\"\n"
+                                           "float4 shade() : SV_Target0 { return Half(); }\n",
+                       Dialect::hlsl, Stage::fragment, "shade", includes);
+    };
+    CHECK(compile_with("").accepted);
+    CHECK(asked == 1);
+    CHECK(compile_with("#include \"/Lib/Half.ush\"\n").accepted);
+    CHECK_FALSE(compile_with("#include \"Missing.ush\"\n").accepted);
+    CHECK_FALSE(compile_with("#include \"Loop.ush\"\n").accepted);
+}
