@@ -97,7 +97,9 @@ Value Lowering::lower_call(const Call& call, const Span& span)
             return lower_term_call(program_.callables[declared.index], call, span);
         case NameKind::parameter: return not_callable("a parameter", declared.span);
         case NameKind::model:
-        case NameKind::output: return not_callable("an output of a model", declared.span);
+        case NameKind::output:
+        case NameKind::gbuffer:
+        case NameKind::code: return not_callable(describe(declared.kind), declared.span);
         case NameKind::lost: return {};
         }
     }

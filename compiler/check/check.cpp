@@ -37,27 +37,26 @@ public:
     {
         for (const std::size_t index : lowering_order(program_, diagnostics_)) {
             if (enough()) return;
-            // An imported module's warnings are its own affair, and those of half a text nobody's.
             Callable& callable = program_.callables[index];
             Diagnostics found;
             Lowered lowered = lower_callable(program_, index, sources_, found);
             callable.function = settle(lowered, found);
             const bool own = callable.file + 1 == program_.files.size() &&
                              !program_.files[callable.file]->broken;
-            for (const Diagnostic& diagnostic : found.all())
-                if (own || severity(diagnostic.code) == Severity::error)
-                    diagnostics_.report(diagnostic);
+            forward_from(callable.file, found);
             if (own) warn_undocumented(callable);
         }
     }
 
     void lower_items()
     {
+        for (std::size_t i = 0; i < program_.models.size(); ++i) {
+            if (enough()) return;
+            if (is_needed(program_, NameKind::model, i, program_.models[i].file)) lower_model(i);
+        }
         const File& root = program_.root();
         for (const syntax::Item& item : root.tree.items) {
             if (enough()) return;
-            if (const auto* model = std::get_if<syntax::ModelItem>(&item.node))
-                lower_model_item(item, *model);
             if (const auto* effect = std::get_if<syntax::EffectItem>(&item.node)) {
                 const auto number = declarations_.effects.size() + 1;
                 Lowered lowered = lower_effect(program_, *effect, number, sources_, diagnostics_);
@@ -111,19 +110,34 @@ private:
              .notes = {"each call counts with all that it calls"}});
     }
 
-    void lower_model_item(const syntax::Item& item, const syntax::ModelItem& model)
+    /// Of an imported module's reports only errors are the root's affair, and warnings about half
+    /// a text are nobody's.
+    void forward_from(std::size_t file, const Diagnostics& found)
     {
-        const File& root = program_.root();
+        const bool own = file + 1 == program_.files.size() && !program_.files[file]->broken;
+        for (const Diagnostic& diagnostic : found.all())
+            if (own || severity(diagnostic.code) == Severity::error)
+                diagnostics_.report(diagnostic);
+    }
+
+    void lower_model(std::size_t index)
+    {
+        ModelDeclaration& declared = program_.models[index];
+        const syntax::ModelItem& node = *declared.node;
+        Diagnostics found;
         ir::Model result;
-        result.name = model.name.text;
-        result.span = model.name.span;
-        result.module = root.name;
-        result.doc = syntax::doc_text(item.comments);
-        std::vector<Lowered> outputs = lower_model(program_, item, model, sources_, diagnostics_);
+        result.name = node.name.text;
+        result.span = node.name.span;
+        result.module = program_.files[declared.file]->name;
+        result.doc = syntax::doc_text(declared.item->comments);
+        std::vector<Lowered> outputs = check::lower_model(program_, declared, sources_, found);
         for (std::size_t i = 0; i < outputs.size(); ++i)
-            if (const auto function = settle(outputs[i], diagnostics_))
-                result.outputs.push_back({model.outputs[i].name.text, *function});
-        declarations_.models.push_back(std::move(result));
+            if (const auto function = settle(outputs[i], found))
+                result.outputs.push_back({node.outputs[i].name.text, *function});
+        declared.broken = result.outputs.size() < node.outputs.size();
+        if (declared.file + 1 == program_.files.size()) declarations_.models.push_back(result);
+        declared.model = std::move(result);
+        forward_from(declared.file, found);
     }
 
     void warn_undocumented(const Callable& callable)

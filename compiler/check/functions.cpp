@@ -117,12 +117,11 @@ Lowered lower_callable(Program& program, std::size_t index, const Sources& sourc
     return lowered;
 }
 
-std::vector<Lowered> lower_model(Program& program, const syntax::Item& item,
-                                 const syntax::ModelItem& model, const Sources& sources,
-                                 Diagnostics& diagnostics)
+std::vector<Lowered> lower_model(Program& program, const ModelDeclaration& declared,
+                                 const Sources& sources, Diagnostics& diagnostics)
 {
-    const std::size_t root = program.files.size() - 1;
-    const File& file = *program.files[root];
+    const syntax::ModelItem& model = *declared.node;
+    const File& file = *program.files[declared.file];
     const Signature signature =
         resolve_signature(file.tree, model.parameters, std::nullopt, diagnostics);
 
@@ -132,19 +131,20 @@ std::vector<Lowered> lower_model(Program& program, const syntax::Item& item,
     for (const syntax::Output& output : model.outputs) {
         const bool first = result.empty();
         Lowered lowered;
-        lowered.file = root;
+        lowered.file = declared.file;
         ir::Function& function = lowered.draft.function;
         function.name = fmt::format("{}_{}", model.name.text, output.name.text);
         function.kind = ir::Function::Kind::output;
         function.span = output.name.span;
         const bool own_doc = std::ranges::any_of(output.comments, &syntax::Comment::doc);
-        describe_function(function, file, own_doc ? output.comments : item.comments,
+        describe_function(function, file, own_doc ? output.comments : declared.item->comments,
                           first || own_doc ? diagnostics : repeated);
         if (output.value.valid())
             function.formula = one_line(sources.text(file.tree[output.value].span));
 
         // The lets are lowered again for every output, for each keeps only what it uses.
-        Lowering lets{program, root, sources, lowered.draft, first ? diagnostics : repeated};
+        Lowering lets{program, declared.file, sources, lowered.draft,
+                      first ? diagnostics : repeated};
         lets.add_arguments(signature);
         lets.add_lets(model.lets);
         if (!first) {

@@ -17,11 +17,10 @@ struct Lowered {
 Lowered lower_callable(Program& program, std::size_t index, const Sources& sources,
                        Diagnostics& diagnostics);
 
-/// One function per output of a model of the root file. Lets are shared: what is wrong with them
-/// is reported once, and their obligations are those of the first output.
-std::vector<Lowered> lower_model(Program& program, const syntax::Item& item,
-                                 const syntax::ModelItem& model, const Sources& sources,
-                                 Diagnostics& diagnostics);
+/// One function per output of a model. Lets are shared: what is wrong with them is reported once,
+/// and their obligations are those of the first output.
+std::vector<Lowered> lower_model(Program& program, const ModelDeclaration& declared,
+                                 const Sources& sources, Diagnostics& diagnostics);
 
 /// The condition of an effect, over parameters alone (E0408).
 Lowered lower_effect(Program& program, const syntax::EffectItem& effect, std::size_t number,

@@ -185,13 +185,18 @@ Value Lowering::lower_declared(const std::string& name, Declared& declared, cons
     }
     case NameKind::model:
     case NameKind::output:
-        diagnostics_->report(
-            {.code = Code::term_as_value,
-             .message = fmt::format("`{}` is an output of a model, not a value", name),
-             .primary = {span, ""},
-             .secondary = {{declared.span, "declared here"}},
-             .helps = {"move its formula into a term that both can call"}});
+    case NameKind::gbuffer:
+    case NameKind::code: {
+        Diagnostic diagnostic{
+            .code = Code::term_as_value,
+            .message = fmt::format("`{}` is {}, not a value", name, describe(declared.kind)),
+            .primary = {span, ""},
+            .secondary = {{declared.span, "declared here"}}};
+        if (declared.kind == NameKind::output || declared.kind == NameKind::code)
+            diagnostic.helps = {"move its formula into a term that both can call"};
+        diagnostics_->report(std::move(diagnostic));
         return {};
+    }
     case NameKind::lost: return {};
     }
     return {};

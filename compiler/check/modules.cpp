@@ -133,6 +133,20 @@ void load_files(Program& program, Sources& sources, std::uint32_t root, const Lo
     Loading{program, sources, loader, diagnostics}.load(root, {});
 }
 
+std::string_view describe(NameKind kind)
+{
+    switch (kind) {
+    case NameKind::callable: return "a term";
+    case NameKind::parameter: return "a parameter";
+    case NameKind::model: return "a model";
+    case NameKind::output: return "an output of a model";
+    case NameKind::gbuffer: return "a gbuffer";
+    case NameKind::code: return "a code";
+    case NameKind::lost: return "";
+    }
+    return "";
+}
+
 std::vector<std::string> names_of(const Scope& scope, NameKind kind)
 {
     std::vector<std::string> names;

@@ -34,7 +34,16 @@ public:
             } else if (const auto* term = std::get_if<syntax::TermItem>(&item.node)) {
                 declare_term(item, *term);
             } else if (const auto* model = std::get_if<syntax::ModelItem>(&item.node)) {
-                declare_model(*model);
+                declare_model(item, *model);
+            } else if (const auto* gbuffer = std::get_if<syntax::GbufferItem>(&item.node)) {
+                program_.gbuffers.push_back({index_, &item, gbuffer, {}});
+                enter(gbuffer->name,
+                      {NameKind::gbuffer, program_.gbuffers.size() - 1, gbuffer->name.span},
+                      "gbuffer");
+            } else if (const auto* code = std::get_if<syntax::CodeItem>(&item.node)) {
+                program_.codes.push_back({index_, &item, code, {}, {}});
+                enter(code->name, {NameKind::code, program_.codes.size() - 1, code->name.span},
+                      "code");
             } else if (const auto* effect = std::get_if<syntax::EffectItem>(&item.node)) {
                 const auto [found, added] = effects_.try_emplace(effect->name, effect->name_span);
                 if (!added) duplicate("effect", effect->name, effect->name_span, found->second);
@@ -92,7 +101,7 @@ private:
 
     static bool is_exported(NameKind kind)
     {
-        return kind == NameKind::callable || kind == NameKind::parameter;
+        return kind != NameKind::output && kind != NameKind::lost;
     }
 
     void declare_import(const syntax::Import& import, const std::optional<std::size_t>& from)
@@ -127,13 +136,11 @@ private:
             .fix = rename_fix(name.text, name.span, exported)};
         if (const auto found = other.names.find(name.text); found != other.names.end()) {
             diagnostic.secondary.push_back(
-                {found->second.span, found->second.imported
-                                         ? "it only imports it, here"
-                                         : "this is neither term nor parameter"});
-            diagnostic.notes.push_back(
-                found->second.imported
-                    ? "names are imported from the module that declares them"
-                    : "terms, forms and parameters are imported; models and their outputs are not");
+                {found->second.span, found->second.imported ? "it only imports it, here"
+                                                            : "this is an output of a model"});
+            diagnostic.notes.push_back(found->second.imported
+                                           ? "names are imported from the module that declares them"
+                                           : "an output comes along with its model: import that");
         }
         diagnostics_.report(std::move(diagnostic));
     }
@@ -183,11 +190,10 @@ private:
         enter(callable.name, {NameKind::callable, index, callable.span}, what);
     }
 
-    void declare_model(const syntax::ModelItem& model)
+    void declare_model(const syntax::Item& item, const syntax::ModelItem& model)
     {
-        if (const auto [found, added] = models_.try_emplace(model.name.text, model.name.span);
-            !added)
-            duplicate("model", model.name.text, model.name.span, found->second);
+        program_.models.push_back({index_, &item, &model, {}});
+        enter(model.name, {NameKind::model, program_.models.size() - 1, model.name.span}, "model");
         std::map<std::string, Span> outputs;
         for (const syntax::Output& output : model.outputs) {
             const auto [found, added] = outputs.try_emplace(output.name.text, output.name.span);
@@ -206,7 +212,6 @@ private:
     File& file_;
     Diagnostics& diagnostics_;
     std::map<std::string, Span> effects_;
-    std::map<std::string, Span> models_;
 };
 
 }  // namespace

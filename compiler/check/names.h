@@ -5,7 +5,8 @@
 
 namespace lobe::check {
 
-/// Fills the scopes of all files, the callables with their signatures, and the parameters.
+/// Fills the scopes of all files, the callables with their signatures, the parameters, and the
+/// lists of models, gbuffers and codes.
 /// Reports names declared twice (E0302), imports of what is not there (E0304), standard names
 /// hidden (E0310), and what is wrong in declarations.
 void declare(Program& program, Diagnostics& diagnostics);

@@ -126,6 +126,14 @@ std::vector<Reference> references(const Program& program, const File& file,
     return result;
 }
 
+bool is_needed(const Program& program, NameKind kind, std::size_t index, std::size_t file)
+{
+    if (file + 1 == program.files.size()) return true;
+    return std::ranges::any_of(program.files.back()->names, [&](const auto& entry) {
+        return entry.second.kind == kind && entry.second.index == index;
+    });
+}
+
 std::vector<std::size_t> lowering_order(const Program& program, Diagnostics& diagnostics)
 {
     Ordering ordering{program, diagnostics};
@@ -133,18 +141,25 @@ std::vector<std::size_t> lowering_order(const Program& program, Diagnostics& dia
     for (std::size_t i = 0; i < program.callables.size(); ++i)
         if (program.callables[i].file == root) ordering.visit(i);
 
-    const File& file = *program.files[root];
-    const auto visit = [&](syntax::ExpressionId id) {
+    const auto visit = [&](const File& file, syntax::ExpressionId id) {
         for (const Reference& reference : references(program, file, id))
             ordering.visit(reference.callable);
     };
-    for (const syntax::Item& item : file.tree.items) {
+    for (const syntax::Item& item : program.files[root]->tree.items)
         if (const auto* effect = std::get_if<syntax::EffectItem>(&item.node))
-            visit(effect->off_when);
-        if (const auto* model = std::get_if<syntax::ModelItem>(&item.node)) {
-            for (const syntax::Let& let : model->lets) visit(let.value);
-            for (const syntax::Output& output : model->outputs) visit(output.value);
-        }
+            visit(*program.files[root], effect->off_when);
+    for (std::size_t i = 0; i < program.models.size(); ++i) {
+        const ModelDeclaration& model = program.models[i];
+        if (!is_needed(program, NameKind::model, i, model.file)) continue;
+        const File& file = *program.files[model.file];
+        for (const syntax::Let& let : model.node->lets) visit(file, let.value);
+        for (const syntax::Output& output : model.node->outputs) visit(file, output.value);
+    }
+    for (std::size_t i = 0; i < program.codes.size(); ++i) {
+        const CodeDeclaration& code = program.codes[i];
+        if (!is_needed(program, NameKind::code, i, code.file)) continue;
+        visit(*program.files[code.file], code.node->encode);
+        visit(*program.files[code.file], code.node->decode);
     }
     return ordering.take();
 }

@@ -17,6 +17,9 @@ struct Reference {
 std::vector<Reference> references(const Program& program, const File& file,
                                   syntax::ExpressionId root);
 
+/// A model, gbuffer or code that the root file declares or imports.
+bool is_needed(const Program& program, NameKind kind, std::size_t index, std::size_t file);
+
 /// All callables that the root file declares or needs, callees first, a form after its term.
 /// Those on a cycle are left out (E0306 is reported, with the chain).
 std::vector<std::size_t> lowering_order(const Program& program, Diagnostics& diagnostics);

@@ -52,11 +52,39 @@ struct Callable {
     std::optional<ir::FunctionId> function;  ///< once lowered without errors
 };
 
+/// A `model` of a file.
+struct ModelDeclaration {
+    std::size_t file = 0;
+    const syntax::Item* item = nullptr;
+    const syntax::ModelItem* node = nullptr;
+    std::optional<ir::Model> model;  ///< once lowered, with the outputs that had no errors
+    bool broken = false;             ///< something about it was reported
+};
+
+/// A `gbuffer` of a file.
+struct GbufferDeclaration {
+    std::size_t file = 0;
+    const syntax::Item* item = nullptr;
+    const syntax::GbufferItem* node = nullptr;
+    std::optional<ir::Gbuffer> gbuffer;  ///< once its conditions are decided, if it had no errors
+};
+
+/// A `code` of a file: two functions.
+struct CodeDeclaration {
+    std::size_t file = 0;
+    const syntax::Item* item = nullptr;
+    const syntax::CodeItem* node = nullptr;
+    std::optional<ir::FunctionId> encode;  ///< once lowered without errors
+    std::optional<ir::FunctionId> decode;
+};
+
 enum class NameKind {
     callable,
     parameter,
     model,
     output,
+    gbuffer,
+    code,
     lost
 };
 
@@ -86,6 +114,9 @@ struct File {
 struct Program {
     std::vector<std::unique_ptr<File>> files;  ///< imported ones first, the root last
     std::vector<Callable> callables;
+    std::vector<ModelDeclaration> models;
+    std::vector<GbufferDeclaration> gbuffers;
+    std::vector<CodeDeclaration> codes;
     std::vector<ir::Parameter> parameters;  ///< of all files; pruned at the end
     std::vector<bool> parameter_broken;
     std::vector<ir::Function> functions;  ///< callees first
@@ -94,6 +125,8 @@ struct Program {
     File& root() { return *files.back(); }
 };
 
+/// With its article: "a term", "a model", "a gbuffer".
+std::string_view describe(NameKind kind);
 /// The names of one kind in a scope, for suggestions.
 std::vector<std::string> names_of(const Scope& scope, NameKind kind);
 
