@@ -1,47 +1,127 @@
 // What is changed in an engine's source tree, as data: where each edit goes and what it says.
 //
 // The list itself is a text (templates/ue4/engine.edits), so that an engine version that moves a
-// line is one line of data. Nothing of an engine is in it but names and single-line anchors.
+// line is one line of data. Nothing of an engine is in it but names and single-line anchors. One
+// statement per line; indentation means nothing; a line that starts with `#` is a remark. REGEX is
+// the rest of the line, TEXT too; words have no blanks in them; people's words are in quotes.
 //
-//   # remark
-//   path SH Engine/Shaders/Private            a short name for a folder, at the start of paths
+//   path SH Engine/Shaders/Private      SH/x is Engine/Shaders/Private/x from here on
+//   supports 4.25 4.27                  the first and the last version that the list knows
+//   word carrier_f_a "F.a is used"      a word that `when` may ask for: set by the request
 //
-//   file SH/ShadingCommon.ush                 a file that edits and reads below are about
-//   optional                                  the tree may lack it
+//   file SH/ShadingCommon.ush           what follows is about this file, up to the next `file`
+//     optional                          the tree may lack it: then what follows is skipped
 //
-//   read next_id REGEX                        a value of the tree: the one group of its one hit
-//   assert "why" REGEX                        must hit exactly once; else refused with the words
-//   unique "why" REGEX                        must not hit: `SHADINGMODELID_${MODEL}\b`
+// Questions, answered before any edit, in this order of kinds:
 //
-//   edit shading_model_id "the id"            a name, unique in the list, and what it is for people
-//   when carrier_f_a                          only if this word is set (several: all of them)
-//   scope REGEX                               only from this line to the brace that closes it
-//   at REGEX                                  the anchor
-//   hits 1                                    how often it must hit (default 1); `0..1`: may be
-//   absent last                                      several hits are fine; the last one counts do
-//   before | after | replace | append | clone | text, with ${values} and //% for        lines to
-//   insert; for `append`, the text to insert
+//   version REGEX                       of the engine: the groups of the one hit, joined by dots
+//   version 4.25 REGEX                  or: it is 4.25 if this hits. The first that hits counts
+//   probe WORD REGEX                    declares a word and sets it if there is a hit
+//   read NAME REGEX                     a value: group 1 of the one hit
+//     else TEXT                         the value if there is no hit
+//   count NAME REGEX                    a value: the number of hits
+//   assert "why" REGEX                  must hit, once or as `hits` says; else refused: "why"
+//   unique "why" REGEX                  must not hit: `SHADINGMODELID_${MODEL}\b`
+//   at_most LIMIT VALUE "why"           VALUE <= LIMIT. Each is a number (12, 0xF) or a value's
+//   name equal VALUE VALUE "why"
 //
-//   before, after   whole lines before or after the line(s) that the anchor hits
-//   replace         the line(s) of the anchor become the text; ${0}, ${1} … are its groups
-//   append          the text goes into the line, in front of group 1 of the anchor
-//   clone           the anchor's line, followed by a copy in which group 1 is replaced by the text
+//   edit shading_model_id "the id"      a name, unique in the list, and what it is for people
+//     at REGEX                          the anchor
+//     last                              several hits are fine, the last one counts
+//     flush                             the text keeps to the left margin; without this it gets
+//                                       the indentation of the anchor's line
+//     before | after                    the text goes before or after the lines of the anchor
+//     replace                           the anchor becomes the text; what else stands on its lines
+//                                       stays
+//     append                            the text goes into the line, in front of the anchor's
+//                                       group 1; its lines are joined without anything between
+//     clone                             a copy of the anchor's lines follows them, in which the
+//                                       text is in the place of group 1; text as for `append`
+//     | #define SHADINGMODELID_${MODEL}  the text, each line behind a `|` and one blank
 //
-//   new SH/${Model}.ush FROM                  a whole file: the generated artifact or template FROM
+//   new SH/${Model}.ush FROM            a whole file: the generated artifact or template FROM
 //
-// Regular expressions are RE2's, with multi-line ^ and $; they match the text with LF line ends.
-// `${name}` in them is replaced by the quoted value.
+// Behind any question, edit, `file` or `new` (for `file`: it holds for all that is about the file):
+//
+//     when carrier_f_a !has_node        only if these words are set, and those with ! are not
+//     since 4.26  until 4.25            only from or up to this version, itself included
+//
+// and behind a question with a REGEX or an edit:
+//
+//     scope REGEX                       only from the line that this hits to the brace that closes
+//                                       it. Declarations (a `;` comes before the `{`) do not count
+//     hits 2  hits 0..1                 how often the anchor must hit (default 1)
+//
+// Regular expressions are RE2's with multi-line ^ and $, on text with LF line ends; none may match
+// nothing. A hit that starts within a comment is none, so code that was commented out disturbs
+// nobody. The lines of a hit are those that its first to last printing character are on: blanks
+// at its ends do not matter. All anchors see the tree without the model's edits.
+//
+// `${name}` in a REGEX is replaced by the quoted value. Texts are rendered as templates are
+// (emit/template.h: `//% for`; an edit whose text comes out empty is no edit, except `replace`).
+// They get the request's values, and
+//
+//   ${Model} ${MODEL}                   the model's name, and in capitals
+//   ${next_id} ${next_id_plus_1}        values read or counted, and their successors if numbers
+//   ${0} ${1} …                         what the anchor and its groups matched
+//
+// A path of `new` gets all but the groups.
 #pragma once
 
-#include "base/embedded.h"
-
-#include <cstddef>
+#include <compare>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace lobe::engine {
+
+/// Major and minor, as 4.27.
+struct Version {
+    int major = 0;
+    int minor = 0;
+    friend auto operator<=>(const Version&, const Version&) = default;
+};
+std::optional<Version> parse_version(std::string_view text);
+
+/// When something of the list is asked for.
+struct Condition {
+    std::vector<std::string> set;      ///< words that must be set
+    std::vector<std::string> not_set;  ///< and these must not
+    std::optional<Version> since;
+    std::optional<Version> until;
+};
+
+/// Where to look in a file.
+struct Anchor {
+    std::string pattern;
+    std::string scope;  ///< empty: the whole file
+    int least_hits = 1;
+    int most_hits = 1;
+};
+
+struct Query {
+    enum class Kind {
+        version,
+        probe,
+        read,
+        count,
+        demand,  ///< `assert`
+        unique,
+        at_most,
+        equal
+    };
+    Kind kind{};
+    std::string name;                     ///< of the word or the value; a version that is fixed
+    std::string why;                      ///< for people
+    std::string left;                     ///< of `at_most` and `equal`: a number or a name
+    std::string right;                    ///< "at most left", "equal to left"
+    std::optional<std::string> fallback;  ///< `else`
+    int file = -1;                        ///< in EditList::files; -1 for at_most and equal
+    Anchor anchor;
+    Condition condition;
+    int line = 0;  ///< in the list
+};
 
 enum class Action {
     before,
@@ -54,44 +134,28 @@ enum class Action {
 struct Edit {
     std::string name;
     std::string purpose;
-    std::string file;               ///< whole path, from the root of the tree
-    std::vector<std::string> when;  ///< words that must be set
-    std::string scope;              ///< empty: the whole file
-    std::string anchor;
-    int least_hits = 1;
-    int most_hits = 1;
+    int file = -1;  ///< in EditList::files
+    Anchor anchor;
+    Condition condition;
     bool last = false;
+    bool flush = false;
     Action action{};
     std::string text;
-    int line = 0;  ///< in the list
-};
-
-/// `read`, `assert`, `unique`
-struct Query {
-    enum class Kind {
-        read,
-        demand,
-        unique
-    };
-    Kind kind{};
-    std::string name;  ///< of the value; for the others the words for people
-    std::string file;
-    std::vector<std::string> when;
-    std::string scope;
-    std::string anchor;
     int line = 0;
 };
 
 struct NewFile {
     std::string path;
-    std::vector<std::string> when;
     std::string from;
+    Condition condition;
     int line = 0;
 };
 
 struct TreeFile {
-    std::string path;
+    std::string path;  ///< from the root of the tree
     bool optional = false;
+    Condition condition;
+    int line = 0;
 };
 
 struct EditList {
@@ -99,9 +163,11 @@ struct EditList {
     std::vector<Query> queries;
     std::vector<Edit> edits;
     std::vector<NewFile> new_files;
+    std::optional<Version> first_version;
+    std::optional<Version> last_version;
 };
 
-/// The list, or what is wrong with it as `line: words`.
+/// The list, or all that is wrong with it, a line `number: words` each.
 struct ParsedEdits {
     EditList list;
     std::string error;

@@ -13,8 +13,15 @@
 // model over the whole tree: fewer than 41 are a patch that was applied in half. The last word is
 // the hash of the lines inside; another hash is a hand that edited them. Regenerating takes
 // all regions of the model out and puts them in anew; nothing outside of them is touched. Line
-// ends, a missing last newline and everything else about a file stay as they are. Other models'
-// regions are the engine's own text to this one.
+// ends, a missing last newline and everything else about a file stay as they are.
+//
+// A new file starts with `// lobe Callisto new 5f2c01ab`, the hash of the lines below. The first
+// region names the new files, a line `//+ path` each below its BEGIN, so that a file that the model
+// no longer has goes when the patch is regenerated or reverted.
+//
+// Several models can be in one tree. To each one the regions of those that came before are the
+// engine's own text; where it changes a line of theirs, its region stands inside of that one, and
+// then they come out in the reverse order.
 #pragma once
 
 #include "emit/template.h"
