@@ -1,0 +1,34 @@
+// Codes: how a value becomes a fraction of the codes that some bits have, and back.
+//
+// In: `code` declarations and the `code` of a field. Out: two functions for each declaration, and
+// an ir::Code that says what a field means. What the numbers come to is checked in exactness.h,
+// once the functions of a packing are built.
+#pragma once
+
+#include "check/functions.h"
+
+#include <optional>
+
+namespace lobe::check {
+
+/// `code gain(x: float in [0, 256]) { … }`: `gain_encode` over x, with a result in [0, 1], and
+/// `gain_decode` over [0, 1], with a result in the range of x. Each is settled like a term.
+struct LoweredCode {
+    Lowered encode;
+    Lowered decode;
+};
+
+/// Lowers Program::codes[index], whose callees are lowered. Reports a type that is no bounded
+/// number (E0610) and an encode or decode that reads anything but its argument (E0610); that
+/// encode stays in [0, 1] (E0607) and decode in the range (E0507) is proved when it is settled.
+LoweredCode lower_code(Program& program, std::size_t index, const Sources& sources,
+                       Diagnostics& diagnostics);
+
+/// The code of a field; linear where the clause names none. `field` has its bits, its sign and its
+/// range, `parameter` is what it stores. Nothing if it makes no sense (reported: E0301, E0610, and
+/// E0607 where the range is wider than a declared code's).
+std::optional<ir::Code> read_code(Program& program, std::size_t file,
+                                  const syntax::FieldClause& clause, const ir::Field& field,
+                                  const ir::Parameter& parameter, Diagnostics& diagnostics);
+
+}  // namespace lobe::check
