@@ -77,12 +77,12 @@ public:
         if (!lines_.empty() && lines_.back().empty()) lines_.pop_back();
     }
 
-    Rendered run()
+    Rendered run(Unused unused)
     {
         const std::size_t end = block(0, true);
         if (ok() && end < lines_.size()) fail(end, "`end` without `for`");
         std::vector<std::string_view> path;
-        if (ok()) find_unused(values_, path);
+        if (ok() && unused == Unused::an_error) find_unused(values_, path);
         if (!ok()) result_.text.clear();
         return std::move(result_);
     }
@@ -251,9 +251,9 @@ private:
 
 }  // namespace
 
-Rendered render(std::string_view name, std::string_view text, const Record& values)
+Rendered render(std::string_view name, std::string_view text, const Record& values, Unused unused)
 {
-    return Renderer{name, text, values}.run();
+    return Renderer{name, text, values}.run(unused);
 }
 
 std::optional<std::string_view> embedded_template(std::string_view path)

@@ -7,7 +7,8 @@
 //
 // A directive is a comment line, so editors show the template as the language it writes, and it
 // leaves no line behind. There are no conditions (an empty list is one), expressions or escapes.
-// Strict both ways: a name the template does not get and a value it does not use are errors.
+// Strict both ways: a name the template does not get and a value it does not use are errors (the
+// second one unless asked otherwise).
 #pragma once
 
 #include <initializer_list>
@@ -73,8 +74,15 @@ struct Rendered {
     std::string error;  ///< `file:line: what is wrong`; empty on success
 };
 
+/// What a value that the text does not ask for is.
+enum class Unused {
+    an_error,
+    fine  ///< many texts share the values
+};
+
 /// `name` is only for messages.
-Rendered render(std::string_view name, std::string_view text, const Record& values);
+Rendered render(std::string_view name, std::string_view text, const Record& values,
+                Unused unused = Unused::an_error);
 
 /// The text of templates/`path`, as it was when the compiler was built; nothing if there is none.
 std::optional<std::string_view> embedded_template(std::string_view path);

@@ -71,6 +71,14 @@ TEST_CASE("a value that nothing uses is an error", "[emit][template]")
     CHECK(error_of("a\n", {{}, {{"xs", {}}}}) == "t.glsl: unused value `xs`");
 }
 
+TEST_CASE("values may be shared by texts that each need some", "[emit][template]")
+{
+    const Rendered result = render("t", "a\n", named("x"), Unused::fine);
+    CHECK(result.text == "a\n");
+    CHECK(result.error.empty());
+    CHECK(render("t", "${other}\n", named("x"), Unused::fine).error == "t:1: unknown name `other`");
+}
+
 TEST_CASE("broken directives are errors with their line", "[emit][template]")
 {
     CHECK(error_of("//% for x in xs\n", {{}, {{"xs", {}}}}) == "t.glsl:1: `for` without `end`");
