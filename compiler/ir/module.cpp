@@ -30,7 +30,8 @@ std::vector<FunctionId> Module::roots() const
     std::vector<bool> is_condition(functions.size());
     for (const Effect& effect : effects) is_condition[effect.off_when.index] = true;
     for (std::size_t i = 0; i < functions.size(); ++i)
-        if (owns(functions[i]) && !is_condition[i]) result.push_back(FunctionId{i});
+        if (owns(functions[i]) && !is_condition[i] && functions[i].kind != Function::Kind::storage)
+            result.push_back(FunctionId{i});
     return result;
 }
 

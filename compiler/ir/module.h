@@ -46,12 +46,14 @@ struct Citation {
     std::string locator;  ///< "85", "eq 33"
 };
 
-/// A term, a form of one, or one output of a model.
+/// A term, a form of one, one output of a model, or how something is stored: half of a `code`, or
+/// what `build_functions` makes (see packing.h). The last kind is no root of a module.
 struct Function {
     enum class Kind : std::uint8_t {
         term,
         form,
-        output
+        output,
+        storage
     };
 
     std::string name;  ///< unique in the module: `D_GGX`, `F_Schlick_spherical_gaussian`,

@@ -64,6 +64,13 @@ struct Code {
 /// As the source would say it for a field of so many bits: `power(8, 127/255)`.
 std::string describe(const Code& code, int bits);
 
+/// A value that a code must decode to, without any rounding.
+struct Anchor {
+    int code = 0;
+    double value = 0;
+    friend bool operator==(const Anchor&, const Anchor&) = default;
+};
+
 struct Field {
     std::uint32_t parameter = 0;  ///< index into Module::parameters
     int component = 0;            ///< of a color; 0 for a scalar
@@ -72,6 +79,8 @@ struct Field {
     bool is_signed = false;       ///< snorm
     Range range{};                ///< what is carried; the parameter's unless the field says `in`
     Code code;
+    std::vector<Anchor> anchors;  ///< of a declared code: the values that must survive, where they
+                                  ///< lie on a code; those of the others follow from the code
     Span span;
     FunctionId encode;
     FunctionId decode;
@@ -123,14 +132,30 @@ struct Packing {
 /// What a field is called in functions and messages: `retroreflection`, `tint_r`.
 std::string field_name(const Module& module, const Field& field);
 
+/// Where a value of the field's range lies among its codes: a real number, whole where the value is
+/// that of a code, past the last code where no code reaches it. Not for declared codes.
+double position(const Field& field, double value);
+
+/// The code whose value this is: `position`, where it is whole but for the rounding of doubles.
+std::optional<int> code_of(const Field& field, double value);
+
+/// The values of a field's component that have to survive: the default, what is required to be
+/// exact, for power and log2 low + 1, for snorm 0. In this order, each once.
+std::vector<double> kept_values(const Module& module, const Packing& packing, const Field& field);
+
+/// How many bits a channel has where the packing has to work.
+int channel_bits(const Packing& packing, const Channel& channel);
+
 /// Adds encode, decode, pack and unpack of every field to the module's functions, in that order,
 /// and their ids to the packing. The fields are sound: their bits lie in their channels without
 /// overlap, pivots are codes, declared codes are functions of the module. Also what the search for
 /// a packing builds its candidates with.
 ///
-/// What is exact: the default of the parameter where it lies on a code, and (for power) low + 1 at
-/// the pivot, and (for snorm) 0, decode without any rounding, on every device that follows Vulkan's
-/// precision table: decode is anchored there, `anchor + (code - anchor_code) * step`.
+/// What is exact: every one of the `kept_values` that lies on a code decodes to the float nearest
+/// to it without any rounding, on every device that follows Vulkan's precision table. Decode is
+/// anchored at one of them, `anchor + (code - anchor_code) * step`; where that does not make
+/// another one exact, its code is looked at by itself. Nothing decodes to a value outside of the
+/// field's range.
 void build_functions(Module& module, Packing& packing, const Gbuffer& gbuffer);
 
 /// `engine ue4 for callisto { … }`
