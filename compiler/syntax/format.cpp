@@ -1,17 +1,17 @@
 #include "syntax/format.h"
 
-#include "syntax/format_expression.h"
+#include "syntax/format_items.h"
+#include "syntax/format_lines.h"
 #include "syntax/lex.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 
 namespace lobe::syntax {
 namespace {
 
-constexpr std::size_t step = 2;
+constexpr std::size_t step = LineWriter::step;
 constexpr std::size_t widest_line = ExpressionWriter::widest_line;
 /// Parameters with longer heads do not take part in the alignment of their run.
 constexpr std::size_t widest_head = 72;
@@ -24,79 +24,29 @@ struct Columns {
 
 class Formatter {
 public:
-    explicit Formatter(const Tree& tree) : tree_(tree), expressions_(tree) {}
+    explicit Formatter(const Tree& tree) : tree_(tree), lines_(tree) {}
 
     std::string run()
     {
-        write_comments(tree_.header, 0);
+        lines_.write_comments(tree_.header, 0);
         if (tree_.module) {
-            if (tree_.module_blank_before) blank_line();
-            out_ += fmt::format("module {}\n", tree_.module->text);
+            if (tree_.module_blank_before) lines_.blank_line();
+            lines_.put(fmt::format("module {}\n", tree_.module->text));
         }
         const std::vector<Columns> columns = align_params();
         for (std::size_t i = 0; i < tree_.items.size(); ++i) {
             const Item& item = tree_.items[i];
-            write_comments(item.comments, 0);
-            if (item.blank_lines_before > 0) blank_line();
+            lines_.write_comments(item.comments, 0);
+            if (item.blank_lines_before > 0) lines_.blank_line();
             columns_ = columns[i];
             std::visit([&](const auto& node) { write(node); }, item.node);
-            end_line(item.trailing);
+            lines_.end_line(item.trailing);
         }
-        write_comments(tree_.footer, 0);
-        return std::move(out_);
+        lines_.write_comments(tree_.footer, 0);
+        return lines_.take();
     }
 
 private:
-    // ---- lines
-
-    void indent(std::size_t columns) { out_.append(columns, ' '); }
-
-    /// One empty line, unless there is one or a block has just been opened.
-    void blank_line()
-    {
-        if (out_.empty() || out_.ends_with("\n\n") || out_.ends_with("{\n")) return;
-        out_ += '\n';
-    }
-
-    void end_line(const std::vector<Comment>& trailing)
-    {
-        for (const Comment& comment : trailing) out_ += fmt::format("  {}", slashes(comment));
-        if (!out_.ends_with('\n')) out_ += '\n';
-    }
-
-    static std::string slashes(const Comment& comment)
-    {
-        return fmt::format("{}{}{}", comment.doc ? "///" : "//", comment.text.empty() ? "" : " ",
-                           comment.text);
-    }
-
-    void write_comments(const std::vector<Comment>& comments, std::size_t columns)
-    {
-        for (const Comment& comment : comments) {
-            if (comment.blank_before) blank_line();
-            indent(columns);
-            out_ += fmt::format("{}\n", slashes(comment));
-        }
-    }
-
-    std::size_t column() const
-    {
-        const std::size_t line = out_.rfind('\n') + 1;  // npos + 1 is 0
-        return character_count(std::string_view{out_}.substr(line));
-    }
-
-    /// ` value` behind an `=`, or the value on lines of its own where that does not fit.
-    void write_value(ExpressionId value, std::size_t columns)
-    {
-        if (column() + 1 + expressions_.width(value) <= widest_line) {
-            out_ += fmt::format(" {}", expressions_.flat(value));
-            return;
-        }
-        out_ += '\n';
-        indent(columns + step);
-        out_ += expressions_.broken(value, columns + step, columns + step);
-    }
-
     // ---- items
 
     void write(const Import& import)
@@ -106,44 +56,37 @@ private:
         for (const Identifier& name : import.names)
             names += fmt::format("{}{}", names.empty() ? "" : ", ", name.text);
         if (line.size() + names.size() + step <= widest_line) {
-            out_ += fmt::format("{}{} }}", line, names);
+            lines_.put(fmt::format("{}{} }}", line, names));
             return;
         }
         line.back() = '\n';
-        out_ += line;
+        lines_.put(line);
         std::size_t at = 0;
         for (std::size_t i = 0; i < import.names.size(); ++i) {
             const bool last = i + 1 == import.names.size();
             const std::string name = fmt::format("{}{}", import.names[i].text, last ? "" : ",");
             if (at > 0 && at + 1 + name.size() > widest_line) {
-                out_ += '\n';
+                lines_.put("\n");
                 at = 0;
             }
             const std::size_t space = at == 0 ? step : 1;
-            indent(space);
-            out_ += name;
+            lines_.indent(space);
+            lines_.put(name);
             at += space + name.size();
         }
-        out_ += "\n}";
+        lines_.put("\n}");
     }
 
     void write(const SourceItem& source)
     {
-        out_ += fmt::format("source {} = {}", source.name.text, quote(source.text));
+        lines_.put(fmt::format("source {} = {}", source.name.text, quote(source.text)));
     }
 
     void write(const TierItem& tier)
     {
-        out_ += "tier ";
+        lines_.put("tier ");
         for (std::size_t i = 0; i < tier.names.size(); ++i)
-            out_ += fmt::format("{}{}", i > 0 ? ", " : "", tier.names[i].text);
-    }
-
-    std::string type(const TypeClause& clause) const
-    {
-        if (!clause.range) return clause.name.text;
-        return fmt::format("{} in [{}, {}]", clause.name.text, expressions_.flat(clause.range->low),
-                           expressions_.flat(clause.range->high));
+            lines_.put(fmt::format("{}{}", i > 0 ? ", " : "", tier.names[i].text));
     }
 
     /// A parameter up to where its tier stands.
@@ -151,9 +94,9 @@ private:
     {
         std::string value;
         for (const ExpressionId id : param.default_value)
-            value += fmt::format("{}{}", value.empty() ? "" : ", ", expressions_.flat(id));
+            value += fmt::format("{}{}", value.empty() ? "" : ", ", lines_.expressions().flat(id));
         if (param.default_value.size() > 1) value = fmt::format("({})", value);
-        return fmt::format("param {} : {} = {}", param.name.text, type(param.type), value);
+        return fmt::format("param {} : {} = {}", param.name.text, lines_.type(param.type), value);
     }
 
     /// For each item the columns of its run: parameters that no empty line separates.
@@ -193,68 +136,53 @@ private:
                 line = fmt::format("{:<{}}", line, columns_.head + 2 + columns_.tier);
             line += fmt::format("  {}", quote(*param.label));
         }
-        out_ += line;
+        lines_.put(line);
     }
 
     void write(const TermItem& term)
     {
-        out_ += fmt::format("term {}", term.name.text);
+        lines_.put(fmt::format("term {}", term.name.text));
         write_signature(term.parameters, term.result);
         write_body(term.body, 0);
         for (const Form& form : term.forms) {
-            write_comments(form.comments, step);
-            indent(step);
-            out_ += fmt::format("form {}", form.name.text);
+            lines_.write_comments(form.comments, step);
+            lines_.indent(step);
+            lines_.put(fmt::format("form {}", form.name.text));
             write_body(form.body, step);
         }
     }
 
     void write(const EffectItem& effect)
     {
-        out_ += fmt::format("effect {} off when", quote(effect.name));
-        write_value(effect.off_when, 0);
+        lines_.put(fmt::format("effect {} off when", quote(effect.name)));
+        lines_.write_value(effect.off_when, 0);
     }
 
     void write(const ModelItem& model)
     {
-        out_ += fmt::format("model {}", model.name.text);
+        lines_.put(fmt::format("model {}", model.name.text));
         write_signature(model.parameters, std::nullopt);
-        out_ += " {\n";
+        lines_.put(" {\n");
         for (const Let& let : model.lets) write_let(let, step);
         std::size_t widest = 0;
         for (const Output& output : model.outputs)
             widest = std::max(widest, output.name.text.size());
         for (const Output& output : model.outputs) {
-            write_comments(output.comments, step);
-            if (output.blank_before) blank_line();
-            indent(step);
+            lines_.write_comments(output.comments, step);
+            if (output.blank_before) lines_.blank_line();
+            lines_.indent(step);
             const std::size_t column = std::min(widest, widest_head);
-            out_ += fmt::format("{:<{}} =", output.name.text, column);
-            write_value(output.value, step);
-            end_line(output.trailing);
+            lines_.put(fmt::format("{:<{}} =", output.name.text, column));
+            lines_.write_value(output.value, step);
+            lines_.end_line(output.trailing);
         }
-        out_ += "}";
+        lines_.put("}");
     }
 
-    void write(const GbufferItem&)
-    {
-        assert(false && "not parsed yet");
-    }
-
-    void write(const CodeItem&)
-    {
-        assert(false && "not parsed yet");
-    }
-
-    void write(const PackingItem&)
-    {
-        assert(false && "not parsed yet");
-    }
-
-    void write(const EngineItem&)
-    {
-        assert(false && "not parsed yet");
-    }
+    void write(const GbufferItem& gbuffer) { write_gbuffer(lines_, gbuffer); }
+    void write(const CodeItem& code) { write_code(lines_, code); }
+    void write(const PackingItem& packing) { write_packing(lines_, packing); }
+    void write(const EngineItem& engine) { write_engine(lines_, engine); }
 
     // ---- pieces of items
 
@@ -263,53 +191,54 @@ private:
     {
         std::vector<std::string> texts;
         for (const ParameterClause& parameter : parameters)
-            texts.push_back(fmt::format("{}: {}", parameter.name.text, type(parameter.type)));
-        const std::string arrow = result ? fmt::format(" -> {}", type(*result)) : "";
+            texts.push_back(
+                fmt::format("{}: {}", parameter.name.text, lines_.type(parameter.type)));
+        const std::string arrow = result ? fmt::format(" -> {}", lines_.type(*result)) : "";
         const std::string flat = fmt::format("({}){}", fmt::join(texts, ", "), arrow);
-        if (column() + flat.size() + step <= widest_line || parameters.empty()) {
-            out_ += flat;
+        if (lines_.column() + flat.size() + step <= widest_line || parameters.empty()) {
+            lines_.put(flat);
             return;
         }
-        out_ += fmt::format("(\n  {}\n){}", fmt::join(texts, ",\n  "), arrow);
+        lines_.put(fmt::format("(\n  {}\n){}", fmt::join(texts, ",\n  "), arrow));
     }
 
     void write_body(const Body& body, std::size_t columns)
     {
         if (!body.block) {
-            out_ += " =";
-            write_value(body.value, columns);
-            end_line(body.trailing);
+            lines_.put(" =");
+            lines_.write_value(body.value, columns);
+            lines_.end_line(body.trailing);
             return;
         }
-        out_ += " {\n";
+        lines_.put(" {\n");
         for (const Let& let : body.lets) write_let(let, columns + step);
-        write_comments(body.value_comments, columns + step);
-        if (body.value_blank_before) blank_line();
-        indent(columns + step);
+        lines_.write_comments(body.value_comments, columns + step);
+        if (body.value_blank_before) lines_.blank_line();
+        lines_.indent(columns + step);
         // A line that starts with `-` would continue the `let` before it.
-        const bool minus = !body.lets.empty() && expressions_.flat(body.value).starts_with('-');
-        if (minus) out_ += '(';
-        out_ += expressions_.broken(body.value, columns + step, columns + step);
-        out_ += minus ? ")\n" : "\n";
-        indent(columns);
-        out_ += "}";
-        end_line(body.trailing);
+        const bool minus =
+            !body.lets.empty() && lines_.expressions().flat(body.value).starts_with('-');
+        if (minus) lines_.put("(");
+        lines_.put(lines_.expressions().broken(body.value, columns + step, columns + step));
+        lines_.put(minus ? ")\n" : "\n");
+        lines_.indent(columns);
+        lines_.put("}");
+        lines_.end_line(body.trailing);
     }
 
     void write_let(const Let& let, std::size_t columns)
     {
-        write_comments(let.comments, columns);
-        if (let.blank_before) blank_line();
-        indent(columns);
-        out_ += fmt::format("let {} =", let.name.text);
-        write_value(let.value, columns);
-        end_line(let.trailing);
+        lines_.write_comments(let.comments, columns);
+        if (let.blank_before) lines_.blank_line();
+        lines_.indent(columns);
+        lines_.put(fmt::format("let {} =", let.name.text));
+        lines_.write_value(let.value, columns);
+        lines_.end_line(let.trailing);
     }
 
     const Tree& tree_;
-    ExpressionWriter expressions_;
+    LineWriter lines_;
     Columns columns_;
-    std::string out_;
 };
 
 }  // namespace

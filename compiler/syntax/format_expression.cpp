@@ -299,6 +299,16 @@ ExpressionWriter::ExpressionWriter(const Tree& tree) : tree_(tree)
     }
 }
 
+bool ExpressionWriter::parenthesize_before_else(ExpressionId id) const
+{
+    return parenthesize_branch(tree_[id]);
+}
+
+bool ExpressionWriter::parenthesize_as_sum(ExpressionId id) const
+{
+    return parenthesize(tree_[id], level_sum);
+}
+
 std::string ExpressionWriter::flat(ExpressionId id) const
 {
     Layout layout{*this, false, 0};

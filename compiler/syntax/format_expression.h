@@ -23,6 +23,11 @@ public:
     /// Starting in `column`; further lines are indented by `indent` or more.
     std::string broken(ExpressionId id, std::size_t column, std::size_t indent) const;
 
+    /// Whether it needs parentheses where an `else` that follows is not its own.
+    bool parenthesize_before_else(ExpressionId id) const;
+    /// Whether it needs parentheses as an operand of a comparison.
+    bool parenthesize_as_sum(ExpressionId id) const;
+
     static constexpr std::size_t widest_line = 100;
 
 private:

@@ -31,6 +31,7 @@ constexpr std::array words{
 
 /// Longer spellings stand before their prefixes.
 constexpr std::array symbols{
+    Word{"..", TokenKind::dot_dot},
     Word{"->", TokenKind::arrow},
     Word{"<=", TokenKind::less_equal},
     Word{">=", TokenKind::greater_equal},
@@ -51,6 +52,7 @@ constexpr std::array symbols{
     Word{"*", TokenKind::star},
     Word{"/", TokenKind::slash},
     Word{"^", TokenKind::caret},
+    Word{"%", TokenKind::percent},
     Word{"<", TokenKind::less},
     Word{">", TokenKind::greater},
 };
@@ -70,7 +72,6 @@ constexpr std::array foreigners{
     Foreign{"!", Trouble::exclamation, TokenKind::word_not},
     Foreign{";", Trouble::semicolon, TokenKind::end},
     Foreign{"?", Trouble::question_mark, TokenKind::unknown},
-    Foreign{"%", Trouble::percent, TokenKind::unknown},
     Foreign{"'", Trouble::apostrophe, TokenKind::unknown},
     Foreign{"#", Trouble::hash, TokenKind::unknown},
 };
@@ -203,8 +204,7 @@ private:
             while (is_digit(peek())) ++at_;
         }
         const std::size_t good = at_;
-        while (is_name(peek()) || (peek() == '.' && is_name(peek(1))) || starts(".."))
-            at_ += starts("..") ? 2 : 1;
+        while (is_name(peek()) || (peek() == '.' && is_name(peek(1)))) ++at_;
 
         const std::string_view text = text_.substr(begin, at_ - begin);
         const auto malformed = [&](Trouble what) {
@@ -213,8 +213,6 @@ private:
         };
         if (text.starts_with("0x") || text.starts_with("0X"))
             malformed(Trouble::number_hexadecimal);
-        else if (text.find("..") != std::string_view::npos)
-            malformed(Trouble::number_range);
         else if (at_ > good && text[good - begin] == '.')
             malformed(Trouble::number_two_dots);
         else if (!fraction)

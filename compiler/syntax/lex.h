@@ -1,6 +1,5 @@
 // Text to tokens. Comments are set aside with their places; what starts no token becomes a
-// `Problem`, so that the parser can report it in source order, or not at all inside a block
-// that this edition only skips.
+// `Problem`, so that the parser can report it in source order.
 #pragma once
 
 #include "base/diagnostic.h"
@@ -36,6 +35,7 @@ enum class TokenKind : std::uint8_t {
     comma,
     colon,
     dot,
+    dot_dot,
     arrow,
     assign,
     plus,
@@ -43,6 +43,7 @@ enum class TokenKind : std::uint8_t {
     star,
     slash,
     caret,
+    percent,
     less,
     less_equal,
     greater,
@@ -80,7 +81,6 @@ enum class Trouble : std::uint8_t {
     exclamation,
     double_star,
     question_mark,
-    percent,
     apostrophe,
     hash,
     block_comment,
@@ -91,7 +91,6 @@ enum class Trouble : std::uint8_t {
     number_no_fraction,
     number_no_exponent,
     number_two_dots,
-    number_range,
     number_hexadecimal,
     number_out_of_range,
 };

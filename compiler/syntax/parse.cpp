@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t largest_file = std::size_t{8} << 20;
 
 /// The words that start an item.
-constexpr std::array<std::string_view, 11> item_words{
-    "module", "import", "source", "tier",    "param",  "term",
-    "form",   "effect", "model",  "packing", "engine",
+constexpr std::array<std::string_view, 13> item_words{
+    "module", "import", "source",  "tier", "param",   "term",   "form",
+    "effect", "model",  "gbuffer", "code", "packing", "engine",
 };
 
 bool closes(TokenKind kind)
@@ -124,7 +124,7 @@ void Parser::report_problems(std::uint32_t before)
     for (; next_problem_ < tokens_.problems.size(); ++next_problem_) {
         const Problem& problem = tokens_.problems[next_problem_];
         if (problem.begin >= before) return;
-        if (!skipping_ && errors_ < most_errors) report(describe(problem, source_.text(), index_));
+        if (errors_ < most_errors) report(describe(problem, source_.text(), index_));
     }
 }
 
@@ -157,6 +157,8 @@ void Parser::fail_expected(std::string_view what, std::string help)
         result.message = fmt::format("expected {}, found {}", what, words(current()));
         result.primary = {span(current()), ""};
     }
+    if (help.empty() && at(TokenKind::dot_dot))
+        help = "a range is written `[low, high]`; `..` stands between the bits of a channel";
     if (!help.empty()) result.helps.push_back(std::move(help));
     fail(std::move(result));
 }
@@ -224,9 +226,10 @@ bool Parser::at_likely_item() const
     if (token.kind != TokenKind::identifier || !token.first_on_line) return false;
     const bool unindented = token.begin == 0 || source_.text()[token.begin - 1] == '\n';
     const TokenKind after = ahead(2).kind;
+    const bool joins = text(ahead(2)) == "on" || text(ahead(2)) == "for";
     return unindented && ahead(1).kind == TokenKind::identifier &&
            (after == TokenKind::left_parenthesis || after == TokenKind::left_brace ||
-            after == TokenKind::colon || after == TokenKind::assign);
+            after == TokenKind::colon || after == TokenKind::assign || joins);
 }
 
 bool Parser::accept(TokenKind kind)
@@ -276,21 +279,28 @@ void Parser::expect_closing(TokenKind kind, const Token& open, std::string_view 
     const bool next_in_block =
         kind != TokenKind::right_brace && (read_too_far || next_line || at(TokenKind::word_let));
     const bool over = next_in_block || at(TokenKind::end) || at_item() || closes(current().kind);
-    Diagnostic result;
     if (over) {
-        result.code = Code::unclosed_bracket;
-        result.message = fmt::format("this `{}` is not closed", text(open));
-        result.primary = {span(open), ""};
-        if (!at(TokenKind::end))
-            result.secondary = {{span(current()), fmt::format("expected {} before this", what)}};
-        else
-            result.notes.push_back("the file ends before it is closed");
-    } else {
-        result.code = Code::unexpected_token;
-        result.message = fmt::format("expected {}, found {}", what, words(current()));
-        result.primary = {span(current()), ""};
-        result.secondary = {{span(open), "opened here"}};
+        fail_unclosed(open, what);
+        return;
     }
+    Diagnostic result;
+    result.code = Code::unexpected_token;
+    result.message = fmt::format("expected {}, found {}", what, words(current()));
+    result.primary = {span(current()), ""};
+    result.secondary = {{span(open), "opened here"}};
+    fail(std::move(result));
+}
+
+void Parser::fail_unclosed(const Token& open, std::string_view what)
+{
+    Diagnostic result;
+    result.code = Code::unclosed_bracket;
+    result.message = fmt::format("this `{}` is not closed", text(open));
+    result.primary = {span(open), ""};
+    if (!at(TokenKind::end))
+        result.secondary = {{span(current()), fmt::format("expected {} before this", what)}};
+    else
+        result.notes.push_back("the file ends before it is closed");
     fail(std::move(result));
 }
 

@@ -27,7 +27,7 @@ std::vector<ParameterClause> Parser::parse_parameters()
     return result;
 }
 
-/// type = name [ "in" "[" expression "," expression "]" ]
+/// type = name [ "in" range ]
 TypeClause Parser::parse_type()
 {
     TypeClause result;
@@ -35,19 +35,25 @@ TypeClause Parser::parse_type()
     result.name = expect_identifier("a type");
     if (at_word("in")) {
         advance();
-        RangeClause range;
-        const Token open = current();
-        if (at(TokenKind::left_parenthesis))
-            fail_expected("`[`", "a range holds its ends and is written `[low, high]`");
-        expect(TokenKind::left_bracket, "`[` and the ends of the range");
-        range.low = parse_expression();
-        expect(TokenKind::comma, "`,` and the upper end of the range");
-        range.high = parse_expression();
-        expect_closing(TokenKind::right_bracket, open, "`]`");
-        range.span = span_from(open.begin);
-        result.range = range;
+        result.range = parse_range();
     }
     result.span = span_from(begin);
+    return result;
+}
+
+/// range = "[" expression "," expression "]"
+RangeClause Parser::parse_range()
+{
+    RangeClause result;
+    const Token open = current();
+    if (at(TokenKind::left_parenthesis))
+        fail_expected("`[`", "a range holds its ends and is written `[low, high]`");
+    expect(TokenKind::left_bracket, "`[` and the ends of the range");
+    result.low = parse_expression();
+    expect(TokenKind::comma, "`,` and the upper end of the range");
+    result.high = parse_expression();
+    expect_closing(TokenKind::right_bracket, open, "`]`");
+    result.span = span_from(open.begin);
     return result;
 }
 

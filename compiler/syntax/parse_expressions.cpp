@@ -88,6 +88,34 @@ ExpressionId Parser::parse_expression()
     return at(TokenKind::word_if) ? parse_conditional() : parse_operators(level_or);
 }
 
+ExpressionId Parser::parse_sum()
+{
+    const Nesting nesting{*this};
+    if (!nesting) return poison();
+    return parse_operators(level_sum);
+}
+
+ExpressionId Parser::parse_before_else()
+{
+    const bool outer_then = in_then_;
+    in_then_ = true;
+    const ExpressionId result = parse_expression();
+    in_then_ = outer_then;
+    return result;
+}
+
+/// Behind a condition, `=` is meant to compare.
+void Parser::refuse_assign()
+{
+    if (!at(TokenKind::assign)) return;
+    Diagnostic result;
+    result.code = Code::unexpected_token;
+    result.message = "`=` gives a name a value; it does not compare";
+    result.primary = {span(current()), ""};
+    result.fix = Fix{span(current()), "==", "write `==`"};
+    fail(std::move(result));
+}
+
 ExpressionId Parser::parse_conditional()
 {
     const Token keyword = advance();
@@ -95,14 +123,7 @@ ExpressionId Parser::parse_conditional()
 
     in_then_ = false;
     const ExpressionId condition = parse_expression();
-    if (at(TokenKind::assign)) {
-        Diagnostic result;
-        result.code = Code::unexpected_token;
-        result.message = "`=` gives a name a value; it does not compare";
-        result.primary = {span(current()), ""};
-        result.fix = Fix{span(current()), "==", "write `==`"};
-        fail(std::move(result));
-    }
+    refuse_assign();
     expect(TokenKind::word_then, "`then`");
 
     in_then_ = true;
@@ -140,6 +161,14 @@ ExpressionId Parser::parse_operators(int level)
             if (const auto next = infix(current().kind); next && is_comparison(next->op))
                 refuse_chain(left, right, current());
         }
+    }
+    if (level == level_product && at(TokenKind::percent)) {
+        Diagnostic result;
+        result.code = Code::unexpected_token;
+        result.message = "`%` is not an operator";
+        result.primary = {span(current()), ""};
+        result.helps.emplace_back("percents stand in `require radiance error < 2%` only");
+        fail(std::move(result));
     }
     return left;
 }
@@ -242,8 +271,6 @@ ExpressionId Parser::parse_postfix()
 {
     ExpressionId base = parse_primary();
     while (accept(TokenKind::dot)) {
-        if (at(TokenKind::dot))
-            fail_expected("the name of a member", "a range is written `[low, high]`");
         Identifier member = expect_identifier("the name of a member");
         const std::size_t high = 1 + height(base);
         if (failed_ || too_high(high)) return base;

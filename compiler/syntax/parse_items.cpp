@@ -8,8 +8,8 @@ namespace {
 
 const std::vector<std::string>& item_keywords()
 {
-    static const std::vector<std::string> words{"import", "source", "tier",  "param",
-                                                "term",   "effect", "model", "packing",
+    static const std::vector<std::string> words{"import", "source", "tier",    "param", "term",
+                                                "effect", "model",  "gbuffer", "code",  "packing",
                                                 "engine", "form",   "module"};
     return words;
 }
@@ -82,8 +82,8 @@ void Parser::parse_item()
         } else if (!meant) {
             result.message = fmt::format("expected a declaration, found {}", words(current()));
             result.helps.emplace_back(
-                "declarations start with `import`, `source`, `tier`, `param`, `term`, `effect` "
-                "or `model`");
+                "declarations start with `import`, `source`, `tier`, `param`, `term`, `effect`, "
+                "`model`, `gbuffer`, `code`, `packing` or `engine`");
             fail(std::move(result));
         }
     } else if (keyword.empty() || !current().first_on_line) {
@@ -139,10 +139,14 @@ std::optional<Parser::ItemNode> Parser::parse_item_node(std::string_view keyword
     if (keyword == "term") return named(parse_term(item));
     if (keyword == "effect") return parse_effect();
     if (keyword == "model") return named(parse_model(item));
-    if (keyword == "packing" || keyword == "engine") {
-        parse_reserved(word);
-        return std::nullopt;
-    }
+    if (keyword == "gbuffer") return named(parse_gbuffer(item));
+    if (keyword == "code") return named(parse_code(item));
+    const auto joined = [](auto node) {
+        const bool whole = !node.model.text.empty() && !node.gbuffer.text.empty();
+        return whole ? std::optional<ItemNode>{std::move(node)} : std::nullopt;
+    };
+    if (keyword == "packing") return joined(parse_packing(item));
+    if (keyword == "engine") return joined(parse_engine(item));
 
     if (keyword == "form") {
         Diagnostic result = misplaced(span(word), "this form belongs to no term");
@@ -302,14 +306,7 @@ EffectItem Parser::parse_effect()
     expect_word("off", "`off when` and a condition");
     expect_word("when", "`when` and a condition");
     result.off_when = parse_expression();
-    if (at(TokenKind::assign)) {
-        Diagnostic equals;
-        equals.code = Code::unexpected_token;
-        equals.message = "`=` gives a name a value; it does not compare";
-        equals.primary = {span(current()), ""};
-        equals.fix = Fix{span(current()), "==", "write `==`"};
-        fail(std::move(equals));
-    }
+    refuse_assign();
     return result;
 }
 
@@ -347,30 +344,6 @@ ModelItem Parser::parse_model(Item& item)
     }
     expect_closing(TokenKind::right_brace, open, "an output `name = value`, or `}`");
     return result;
-}
-
-/// packing and engine blocks: whatever they hold, up to the brace that closes them.
-void Parser::parse_reserved(const Token& keyword)
-{
-    Diagnostic reserved;
-    reserved.code = Code::reserved_block;
-    reserved.message = fmt::format("`{}` blocks are not compiled by this edition", text(keyword));
-    reserved.primary = {span(keyword), ""};
-    reserved.helps.emplace_back("the word is reserved for a later one; remove the block");
-    report(std::move(reserved));
-
-    skipping_ = true;
-    while (!at(TokenKind::left_brace) && !at(TokenKind::end) && !at_item()) advance();
-    const Token open = current();
-    for (int depth = 0; at(TokenKind::left_brace) || (depth > 0 && !at(TokenKind::end));) {
-        if (at(TokenKind::left_brace)) ++depth;
-        if (at(TokenKind::right_brace)) --depth;
-        advance();
-        if (depth == 0) break;
-        if (at(TokenKind::end)) expect_closing(TokenKind::right_brace, open, "`}`");
-    }
-    take_comments();
-    skipping_ = false;
 }
 
 }  // namespace lobe::syntax

@@ -1,5 +1,7 @@
 // The parser's state and rules; inside `syntax` only. Recursive descent with one rule per line
-// of docs/grammar.md, items in parse_items.cpp, expressions in parse_expressions.cpp.
+// of docs/grammar.md: items in parse_items.cpp and what they are made of in parse_bodies.cpp,
+// blocks of lines in parse_lines.cpp, parse_gbuffer.cpp and parse_packing.cpp, expressions in
+// parse_expressions.cpp.
 //
 // How errors travel: the first one in a declaration sets `failed_`, and from then on `current`
 // is the end of the text, so every rule runs out of input and returns what it has without
@@ -16,6 +18,14 @@
 #include <vector>
 
 namespace lobe::syntax {
+
+/// The words that the lines of a block start with.
+struct LineWords {
+    std::vector<std::string> own;
+    std::vector<std::string> outer;  ///< of the blocks around it: there, this one is not closed
+    std::string_view expected;       ///< what a message says can stand here
+    bool fields = false;             ///< lines may also start with `target.channel`
+};
 
 class Parser {
 public:
@@ -47,6 +57,7 @@ private:
     bool expect(TokenKind kind, std::string_view what);
     bool expect_word(std::string_view word, std::string_view what);
     void expect_closing(TokenKind kind, const Token& open, std::string_view what);
+    void fail_unclosed(const Token& open, std::string_view what);
     Identifier expect_identifier(std::string_view what);
     std::string_view text(const Token& token) const;
     std::string words(const Token& token) const;
@@ -77,17 +88,76 @@ private:
     Form parse_form();
     EffectItem parse_effect();
     ModelItem parse_model(Item& item);
-    void parse_reserved(const Token& keyword);
+    GbufferItem parse_gbuffer(Item& item);
+    CodeItem parse_code(Item& item);
+    PackingItem parse_packing(Item& item);
+    EngineItem parse_engine(Item& item);
     std::vector<ParameterClause> parse_parameters();
     TypeClause parse_type();
+    RangeClause parse_range();
     Body parse_body();
     void parse_block(Body& body);
     Let parse_let();
     Output parse_output();
     std::string parse_string(std::string_view what);
 
+    // ---- blocks of lines (parse_lines.cpp)
+    /// Where a line starts, and what stands before it.
+    struct LineStart {
+        std::size_t position = 0;
+        std::vector<Comment> comments;
+        bool blank_before = false;
+        std::uint32_t begin = 0;
+    };
+    bool at_line(const LineWords& words) const;
+    bool at_outer_line(const LineWords& words) const;
+    bool starts_line(const LineWords& words) const;
+    LineStart open_line();
+    std::string line_word(const LineWords& words);
+    std::string expect_one_of(const std::vector<std::string>& words, std::string_view what);
+    void refuse_docs(const LineStart& start);
+    void recover_line(const LineWords& words, const LineStart& start);
+    void close_block(const Token& open, const LineWords& words, std::vector<Comment>& last);
+    void report_misplaced(const Span& span, std::string message, Label earlier);
+    /// The end of a line: its comments, its place.
+    template <class Line>
+    void close_line(Line& line, LineStart start)
+    {
+        take_interior(start.comments);
+        line.comments = std::move(start.comments);
+        line.blank_before = start.blank_before;
+        line.trailing = take_trailing();
+        line.span = span_from(start.begin);
+    }
+    int parse_whole(std::string_view what);
+    std::vector<Identifier> parse_names(std::string_view what);
+    StorageClause parse_storage();
+
+    // ---- lines of a gbuffer (parse_gbuffer.cpp)
+    SettingItem parse_setting(LineStart start);
+    TargetClause parse_target(LineStart start);
+    ChannelClause parse_channel(LineStart start);
+    FactClause parse_fact(const std::string& word, LineStart start);
+    PinClause parse_pin(LineStart start);
+    ExpressionId parse_condition();
+
+    // ---- lines of a packing and of an engine (parse_packing.cpp)
+    void parse_code_lines(CodeItem& code, Item& item);
+    FieldClause parse_field(LineStart start);
+    SlotClause parse_slot();
+    CodeClause parse_code_clause();
+    bool at_code_clause() const;
+    PackingClause parse_clause(const std::string& word, LineStart start);
+    void parse_requirement(PackingClause& clause);
+    EngineClause parse_engine_line(const std::string& word, LineStart start);
+    void parse_node_inputs(EngineClause& node, const LineStart& start);
+    void parse_color(EngineClause& color);
+
     // ---- expressions (parse_expressions.cpp)
     ExpressionId parse_expression();
+    ExpressionId parse_sum();          ///< what may stand behind `==` without parentheses
+    ExpressionId parse_before_else();  ///< an expression whose `else` is not a division's
+    void refuse_assign();
     ExpressionId parse_conditional();
     ExpressionId parse_operators(int level);
     ExpressionId parse_not();
@@ -139,8 +209,7 @@ private:
     int errors_ = 0;
     int depth_ = 0;
     bool failed_ = false;
-    bool skipping_ = false;  ///< inside a reserved block: problems are not reported
-    bool in_then_ = false;   ///< an `else` here belongs to an `if`
+    bool in_then_ = false;  ///< an `else` here belongs to an `if`
     std::optional<Span> first_not_import_;
     Tree tree_;
     std::vector<std::uint16_t> heights_;  ///< of the tree below each expression

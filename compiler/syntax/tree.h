@@ -299,7 +299,9 @@ struct CodeItem {
     Identifier stored;  ///< the name that `decode` gives to what was stored
     ExpressionId decode;
     std::vector<Comment> encode_comments;
+    std::vector<Comment> encode_trailing;
     std::vector<Comment> decode_comments;
+    std::vector<Comment> decode_trailing;
 };
 
 /// `d.r`, `d.b[4..7]`, or `d.rgb`, which is three whole channels

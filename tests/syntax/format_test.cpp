@@ -166,7 +166,7 @@ TEST_CASE("random trees survive format and parse")
 
 TEST_CASE("the models survive format and parse")
 {
-    for (const char* name : {"microfacet", "callisto", "ue4"}) {
+    for (const char* name : {"microfacet", "callisto", "ue4", "ue4_gbuffer"}) {
         CAPTURE(name);
         std::ifstream file(fmt::format("../models/{}.lobe", name));
         std::stringstream text;

@@ -140,10 +140,121 @@ public:
             text += fmt::format("{} = {}; ", output.name.text, read(output.value));
         return text;
     }
-    std::string read(const GbufferItem&) const { return "GbufferItem"; }
-    std::string read(const CodeItem&) const { return "CodeItem"; }
-    std::string read(const PackingItem&) const { return "PackingItem"; }
-    std::string read(const EngineItem&) const { return "EngineItem"; }
+
+    std::string read(const RangeClause& range) const
+    {
+        return fmt::format("[{} {}]", read(range.low), read(range.high));
+    }
+    std::string read(const StorageClause& storage) const
+    {
+        return fmt::format("{}:{}", storage.kind.text, storage.bits);
+    }
+    std::string read(const FactClause& fact) const
+    {
+        static constexpr std::array kinds{"format", "exists", "field", "holds", "also", "changes"};
+        std::string text = kinds.at(static_cast<std::size_t>(fact.kind));
+        if (fact.storage) text += " " + read(*fact.storage);
+        if (!fact.name.text.empty()) text += " " + fact.name.text;
+        if (fact.kind != FactClause::Kind::format && fact.kind != FactClause::Kind::exists)
+            text += " " + quote(fact.text);
+        if (fact.lent) text += " lent";
+        if (fact.condition.valid()) text += " when " + read(fact.condition);
+        if (fact.otherwise.valid()) text += " else " + read(fact.otherwise);
+        return text + "; ";
+    }
+    template <class Lines>
+    std::string read_all(const Lines& lines) const
+    {
+        std::string text;
+        for (const auto& line : lines) text += read(line);
+        return text;
+    }
+    std::string read(const ChannelClause& channel) const
+    {
+        return fmt::format("{}channel {} {} {{{}}}", doc_text(channel.comments), channel.name.text,
+                           quote(channel.label), read_all(channel.facts));
+    }
+    std::string read(const TargetClause& target) const
+    {
+        return fmt::format("{}target {} {} {{{}{}}}", doc_text(target.comments), target.name.text,
+                           quote(target.label), read_all(target.facts), read_all(target.channels));
+    }
+    std::string read(const SettingItem& setting) const
+    {
+        return fmt::format("{}setting {} {} {}= {}; ", doc_text(setting.comments),
+                           setting.name.text, quote(setting.label), read(setting.values),
+                           setting.default_value.text);
+    }
+    std::string read(const PinClause& pin) const
+    {
+        return fmt::format("{}pin {} {} {}= {}; ", doc_text(pin.comments), pin.name.text,
+                           quote(pin.label), pin.range ? read(*pin.range) : "",
+                           read(pin.default_value));
+    }
+    std::string read(const GbufferItem& node) const
+    {
+        return fmt::format("gbuffer {} {}{}{}", node.name.text, read_all(node.settings),
+                           read_all(node.targets), read_all(node.pins));
+    }
+    std::string read(const CodeItem& node) const
+    {
+        return fmt::format("code {} {}:{} encode {} decode {} {}", node.name.text,
+                           node.value.name.text, read(node.value.type), read(node.encode),
+                           node.stored.text, read(node.decode));
+    }
+    std::string read(const FieldClause& field) const
+    {
+        std::string text = doc_text(field.comments);
+        for (const SlotClause& slot : field.slots) {
+            text += fmt::format("{}.{}", slot.target.text, slot.channels.text);
+            if (slot.low) text += fmt::format("[{} {}]", *slot.low, *slot.high);
+            text += ",";
+        }
+        text += " = " + field.parameter.text;
+        if (field.component) text += "." + field.component->text;
+        text += " " + read(field.storage);
+        if (field.range) text += " " + read(*field.range);
+        if (field.code) {
+            text += " code " + field.code->name.text;
+            for (const ExpressionId id : field.code->arguments) text += " " + read(id);
+        }
+        return text + "; ";
+    }
+    std::string read(const PackingClause& clause) const
+    {
+        static constexpr std::array kinds{"exact", "radiance", "supports", "over", "without"};
+        std::string text = kinds.at(static_cast<std::size_t>(clause.kind));
+        for (const auto& exact : clause.exact)
+            text += fmt::format(" {} {},", exact.parameter.text, read(exact.value));
+        if (clause.limit.valid()) text += " " + read(clause.limit);
+        text += fmt::format(" {} {}", clause.name.text, read(clause.names));
+        if (clause.range) text += " " + read(*clause.range);
+        return text + "; ";
+    }
+    std::string read(const std::variant<FieldClause, PackingClause>& line) const
+    {
+        return std::visit([&](const auto& node) { return read(node); }, line);
+    }
+    std::string read(const PackingItem& node) const
+    {
+        return fmt::format("packing {} on {} {}", node.model.text, node.gbuffer.text,
+                           read_all(node.lines));
+    }
+    std::string read(const EngineClause& clause) const
+    {
+        static constexpr std::array kinds{"shading_model", "pin", "node", "color"};
+        std::string text = kinds.at(static_cast<std::size_t>(clause.kind));
+        text += fmt::format(" {} {}", clause.name.text, clause.parameter.text);
+        if (clause.text) text += " " + quote(*clause.text);
+        text += read(clause.names);
+        for (const ExpressionId id : clause.color) text += " " + read(id);
+        return text + "; ";
+    }
+    std::string read(const EngineItem& node) const
+    {
+        return fmt::format("engine {} for {} {}", node.gbuffer.text, node.model.text,
+                           read_all(node.lines));
+    }
 
 private:
     const Tree& tree_;
@@ -162,6 +273,51 @@ void collect(const Body& body, std::vector<std::string>& into)
     }
     collect(body.value_comments, into);
     collect(body.trailing, into);
+}
+
+/// The comments of lines that hold no others.
+template <class Lines>
+void collect_lines(const Lines& lines, std::vector<std::string>& into)
+{
+    for (const auto& line : lines) {
+        collect(line.comments, into);
+        collect(line.trailing, into);
+    }
+}
+
+void collect(const GbufferItem& gbuffer, std::vector<std::string>& into)
+{
+    collect_lines(gbuffer.settings, into);
+    for (const TargetClause& target : gbuffer.targets) {
+        collect(target.comments, into);
+        collect_lines(target.facts, into);
+        for (const ChannelClause& channel : target.channels) {
+            collect(channel.comments, into);
+            collect_lines(channel.facts, into);
+            collect(channel.trailing, into);
+        }
+        collect(target.trailing, into);
+    }
+    collect_lines(gbuffer.pins, into);
+}
+
+void collect(const CodeItem& code, std::vector<std::string>& into)
+{
+    collect(code.encode_comments, into);
+    collect(code.encode_trailing, into);
+    collect(code.decode_comments, into);
+    collect(code.decode_trailing, into);
+}
+
+void collect(const PackingItem& packing, std::vector<std::string>& into)
+{
+    for (const auto& any : packing.lines)
+        std::visit(
+            [&](const auto& line) {
+                collect(line.comments, into);
+                collect(line.trailing, into);
+            },
+            any);
 }
 
 }  // namespace
@@ -198,6 +354,11 @@ std::vector<std::string> comments(const Tree& tree)
                 collect(output.trailing, result);
             }
         }
+        if (const auto* gbuffer = std::get_if<GbufferItem>(&item.node)) collect(*gbuffer, result);
+        if (const auto* code = std::get_if<CodeItem>(&item.node)) collect(*code, result);
+        if (const auto* packing = std::get_if<PackingItem>(&item.node)) collect(*packing, result);
+        if (const auto* engine = std::get_if<EngineItem>(&item.node))
+            collect_lines(engine->lines, result);
         collect(item.trailing, result);
     }
     collect(tree.footer, result);

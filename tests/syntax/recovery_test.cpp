@@ -128,7 +128,8 @@ TEST_CASE("habits of other languages get a hint")
     CHECK(help("term a(x: unit = 1) = x") == "terms have no defaults; a `param` has one");
     CHECK(help("term a() -> float in (0, 1) = x") ==
           "a range holds its ends and is written `[low, high]`");
-    CHECK(help("term a() -> float in [0 .. 1] = x") == "a range is written `[low, high]`");
+    CHECK(help("term a() -> float in [0..1] = x") ==
+          "a range is written `[low, high]`; `..` stands between the bits of a channel");
     CHECK(help("term a() = let x = 1 in x") == "`let` stands in a block: `{ let y = x  y * y }`");
     CHECK(help("let x = 1") ==
           "a value that terms share is a `param`, or a `term` without parameters");
@@ -173,16 +174,6 @@ TEST_CASE("doc comments document something")
           "E0205 this doc comment documents nothing [/// inside]");
     CHECK(only("module m\nmodel d() {\n x = 1\n /// last\n}\n") ==
           "E0205 this doc comment documents nothing [/// last]");
-}
-
-TEST_CASE("reserved blocks are skipped whole, whatever they hold")
-{
-    const auto result = parsed("module m\npacking m on ue4 {\n  d.b[4..7] = a : unorm 4 { } // 1\n"
-                               "  require radiance error < 2%\n}\n"
-                               "engine ue4 for m {\n pin a = b \"c\"\n}\nterm t() = 1\n");
-    CHECK(codes(result.diagnostics) == "E0206 E0206");
-    CHECK(names(result.tree) == "t ");
-    CHECK(only("module m\npacking m {\n a { }\n") == "E0206 E0202");
 }
 
 TEST_CASE("a mistake costs its declaration only")
