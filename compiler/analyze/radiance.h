@@ -15,6 +15,7 @@
 #include "ir/module.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,7 +53,9 @@ struct RadianceOptions {
 };
 
 /// `module` has been through optimize. The box is what the fields carry, the declared ranges of
-/// all else, and the packing's own `over`.
+/// all else, and the packing's own `over`. Directions are at least 2^-13 above the horizon. A
+/// parameter without a field is at its default, as the engine knows no other value of it, unless
+/// `over` gives it a range. Where a model reads alpha beside roughness, it is its square.
 PackingErrors packing_errors(const ir::Module& module, const ir::Packing& packing,
                              const RadianceOptions& options = {});
 

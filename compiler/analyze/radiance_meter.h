@@ -1,0 +1,54 @@
+// The error of many points at once: radiance of what was asked for, and of what is stored of it.
+#pragma once
+
+#include "analyze/radiance_box.h"
+#include "analyze/steps.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace lobe::analyze {
+
+/// Which coordinates are stored, and as what: one entry per coordinate, null where it is not.
+using StoredAs = std::vector<const Steps*>;
+
+class RadianceMeter {
+public:
+    RadianceMeter(const RadianceBox& box, std::size_t rows);
+
+    std::size_t rows() const { return rows_; }
+    /// The points, to be filled in.
+    float* column(std::size_t coordinate) { return &points_[coordinate * rows_]; }
+    void set(std::size_t row, std::span<const float> point);
+    void set_all(std::span<const float> point);
+    std::vector<float> point(std::size_t row) const;
+
+    /// The radiance of the points as they are. Comes before `compare`.
+    void light();
+    /// The error of every point with some coordinates stored (see radiance.h); 0 where the radiance
+    /// is not finite, infinite where only the packed one is not.
+    const std::vector<float>& compare(const StoredAs& stored);
+
+    /// Of the last two, for one point: the channel with the error.
+    struct Detail {
+        double error = 0;
+        double exact = 0;
+        double packed = 0;
+    };
+    Detail detail(std::size_t row) const;
+
+private:
+    std::vector<const float*> heads(const std::vector<float>& table) const;
+    float floor_of(std::size_t row) const;
+
+    const RadianceBox& box_;
+    std::size_t rows_;
+    std::vector<float> points_;  ///< column by column, as are all below
+    std::vector<float> stored_;
+    std::vector<float> exact_;
+    std::vector<float> packed_;
+    std::vector<float> errors_;
+};
+
+}  // namespace lobe::analyze

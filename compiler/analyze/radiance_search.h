@@ -1,0 +1,30 @@
+// Where the worst errors are: points over the box, then steps uphill.
+//
+// Everything is a function of its arguments: random numbers come from keys, so that the same
+// searches find the same points on any number of threads.
+#pragma once
+
+#include "analyze/radiance_meter.h"
+
+#include <cstdint>
+
+namespace lobe::analyze {
+
+/// Fills row `row` with point number `index` of the box. Even points are anywhere: directions
+/// uniform above the horizon, values uniform in their ranges. Odd ones are where errors are:
+/// grazing, mirror, retro and highlight directions, values at their ends and at borders of
+/// `stored`, from both sides.
+void place_point(const RadianceBox& box, const StoredAs& stored, std::uint64_t index,
+                 RadianceMeter& meter, std::size_t row);
+
+struct Peak {
+    double error = -1;
+    std::vector<float> point;
+};
+
+/// From a point uphill: `rounds` times the best of 127 neighbors, near and far, with the steps
+/// becoming smaller. Directions stay unit and above the horizon, values in the box.
+Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& start,
+           int rounds, std::uint64_t key);
+
+}  // namespace lobe::analyze
