@@ -511,8 +511,16 @@ private:
                                   fmt::format("The code of {}: {}.", name, codes_text(field)));
         function.formula = encode_formula(field);
         const Type type = component_type(parameter);
-        function.inputs = {{"x", type, component_quantity(parameter), parameter.range,
-                            Origin::argument, 0, field.span}};
+        // Anything: what a material gives is not always in its range, and a code past the last one
+        // would spill into the field beside it. The clamp is part of the code.
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        function.inputs = {{"x",
+                            type,
+                            component_quantity(parameter),
+                            {-infinity, infinity},
+                            Origin::argument,
+                            0,
+                            field.span}};
         Writer write{{}, field.span};
         const ExprId x = write.graph.input(0, type, field.span);
         const ExprId code = FieldCodes{module_, packing_, field}.encode(write, x);
