@@ -27,7 +27,8 @@ struct Artifact {
     std::vector<std::string> calls = {};  ///< statements that call every root once; see `frame`
 };
 
-/// The files of one module for one target.
+/// The files of one module for one target: its functions and models, unless it has none; and, if it
+/// has packings, the file that packs and unpacks.
 std::vector<Artifact> emit(const ir::Module& module, const Sources& sources, const Target& target);
 
 /// The same for several targets, in their order. What is the same text for some of them is written
@@ -54,6 +55,13 @@ struct Harness {
 };
 Harness harness(const ir::Module& module, const Sources& sources, ir::FunctionId function,
                 const Target& target, Precision precision);
+
+/// A shader that unpacks every parameter of a packing from what its channels read and packs them
+/// again: the packing's file as `emit` writes it, in Unreal through the macro and the function that
+/// stand there for the engine. Inputs of a point: what each of Packing::channels reads. Outputs:
+/// what each is to store then, followed by the unpacked parameters, component by component.
+Harness packing_harness(const ir::Module& module, const Sources& sources, std::size_t packing,
+                        const Target& target);
 
 /// One output of a model's BxDF for Unreal, as emitted, under a point light of radiance 1.
 struct BxdfCheck {

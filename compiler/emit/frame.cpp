@@ -1,5 +1,6 @@
 #include "emit/frame.h"
 
+#include "emit/packing.h"
 #include "emit/template.h"
 #include "emit/wrap.h"
 
@@ -17,6 +18,16 @@ std::string upper(std::string text)
     return text;
 }
 
+/// The files of the target's dialect, begun if there are none.
+template <class Files>
+Files& serving(std::vector<Files>& files, const ir::Module& module, const Sources& sources,
+               const Target& target)
+{
+    for (Files& known : files)
+        if (known.serves(target)) return known;
+    return files.emplace_back(module, sources, target);
+}
+
 }  // namespace
 
 std::string function_prefix(const ir::Module& module, const Target& target)
@@ -31,9 +42,10 @@ std::string banner(const ir::Module& module)
                        LOBE_VERSION, path, path);
 }
 
-std::string include_guard(const ir::Module& module, const Target& target)
+std::string include_guard(const ir::Module& module, const Target& target, std::string_view part)
 {
-    return upper(fmt::format("LOBE_{}_{}", module.name, target.extension.substr(1)));
+    return upper(fmt::format("LOBE_{}_{}{}{}", module.name, part, part.empty() ? "" : "_",
+                             target.extension.substr(1)));
 }
 
 std::vector<Record> module_doc(const ir::Module& module)
@@ -53,18 +65,15 @@ std::vector<Artifact> emit(const ir::Module& module, const Sources& sources,
 {
     std::vector<Artifact> artifacts;
     std::vector<ShadingFiles> files;  // one per dialect
+    std::vector<PackingFiles> packings;
+    const bool has_own = !module.roots().empty();
     for (const Target* target : targets) {
-        if (target->name == "ue4") {
-            artifacts.push_back(emit_unreal(module, sources, *target));
-            continue;
-        }
-        auto serving = std::ranges::find_if(
-            files, [&](const ShadingFiles& file) { return file.serves(*target); });
-        if (serving == files.end()) {
-            files.emplace_back(module, sources, *target);
-            serving = files.end() - 1;
-        }
-        artifacts.push_back(serving->artifact(*target));
+        if (has_own)
+            artifacts.push_back(target->name == "ue4"
+                                    ? emit_unreal(module, sources, *target)
+                                    : serving(files, module, sources, *target).artifact(*target));
+        if (!module.packings.empty())
+            artifacts.push_back(serving(packings, module, sources, *target).artifact(*target));
     }
     return artifacts;
 }

@@ -55,10 +55,10 @@ std::string range_text(const ir::Range& range)
                        end_text(range.high), std::isinf(range.high) ? ")" : "]");
 }
 
-std::string model_stem(const ir::Module& module, const std::string& name, const Dialect& dialect)
+std::string model_stem(std::string_view module, const std::string& name, const Dialect& dialect)
 {
-    if (dialect.names == Case::snake || name.starts_with(module.name)) return name;
-    return module.name + "_" + name;
+    if (dialect.names == Case::snake || name.starts_with(module)) return name;
+    return fmt::format("{}_{}", module, name);
 }
 
 std::string shown_path(std::string_view path)

@@ -63,9 +63,14 @@ std::vector<Record> lines(const std::vector<std::string>& texts);
 /// `[0, 1]`, `[0, inf)`; empty when nothing is known.
 std::string range_text(const ir::Range& range);
 
-/// What the names of a model's types and functions start with, given its own: `callisto`, or
-/// `ue4_default_lit` where one file's names must not meet another's.
-std::string model_stem(const ir::Module& module, const std::string& name, const Dialect& dialect);
+/// What the names of a model's types and functions start with, given its own and its module's:
+/// `callisto`, or `ue4_default_lit` where one file's names must not meet another's.
+std::string model_stem(std::string_view module, const std::string& name, const Dialect& dialect);
+inline std::string model_stem(const ir::Module& module, const std::string& name,
+                              const Dialect& dialect)
+{
+    return model_stem(module.name, name, dialect);
+}
 
 /// A path that is the same everywhere: as given, but only the file name of an absolute one.
 std::string shown_path(std::string_view path);

@@ -213,11 +213,12 @@ std::string to_float(ir::Type type, const std::string& value)
     return type == ir::Type::scalar ? value : fmt::format("length({})", value);
 }
 
-std::vector<std::string> root_calls(const ir::Module& module, const Listing& listing,
-                                    const Dialect& dialect)
+std::vector<std::string> root_calls(const ir::Module& module,
+                                    const std::vector<ir::FunctionId>& roots,
+                                    const Listing& listing, const Dialect& dialect)
 {
     std::vector<std::string> calls;
-    for (const ir::FunctionId root : module.roots()) {
+    for (const ir::FunctionId root : roots) {
         std::vector<std::string> operands;
         for (const ir::Input& input : module[root].inputs)
             operands.push_back(sample(dialect, input.type));
@@ -234,7 +235,7 @@ ShadingFiles::ShadingFiles(const ir::Module& module, const Sources& sources, con
       listing_(module, sources, *dialect_, module.reachable(module.roots()),
                function_prefix(module, target))
 {
-    calls_ = root_calls(module, listing_, *dialect_);
+    calls_ = root_calls(module, module.roots(), listing_, *dialect_);
     values_.texts = {{"banner", banner(module)}, {"guard", include_guard(module, target)}};
     values_.lists["doc"] = module_doc(module);
     std::vector<Record> models;

@@ -346,7 +346,7 @@ Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Tar
     const Dialect& language = dialect(target);
     Listing listing{module, sources, language, module.reachable(module.roots()),
                     function_prefix(module, target)};
-    std::vector<std::string> calls = root_calls(module, listing, language);
+    std::vector<std::string> calls = root_calls(module, module.roots(), listing, language);
 
     Record values;
     values.texts = {{"banner", banner(module)}};

@@ -1,6 +1,7 @@
 #include "emit/cases.h"
 
 #include "emit/emit.h"
+#include "emit/packings.h"
 
 namespace lobe::tests {
 namespace {
@@ -212,6 +213,8 @@ const std::vector<GoldenCase>& golden_cases()
         {"model", "glsl450", model},
         {"model", "ue4", model},
         {"everything", "ue4", everything},
+        {"packing", "glsl450", packed_skin},
+        {"packing", "ue4", packed_skin},
     };
     return cases;
 }
@@ -225,7 +228,7 @@ std::string golden_path(const GoldenCase& golden)
 std::string golden_text(const GoldenCase& golden)
 {
     const Builder b = golden.build();
-    return emit::emit(b.module, b.sources, *emit::find_target(golden.target)).front().text;
+    return emit::emit(b.module, b.sources, *emit::find_target(golden.target)).back().text;
 }
 
 }  // namespace lobe::tests

@@ -19,7 +19,7 @@ const std::vector<GoldenCase>& golden_cases();
 /// `golden/ggx.ue4.ush`
 std::string golden_path(const GoldenCase& golden);
 
-/// What the compiler makes of it now.
+/// What the compiler makes of it now: the last file of the module, its packings if it has any.
 std::string golden_text(const GoldenCase& golden);
 
 }  // namespace lobe::tests
