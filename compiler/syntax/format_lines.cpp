@@ -158,24 +158,30 @@ void LineWriter::write_lines(const std::vector<Line>& lines, std::size_t columns
 void LineWriter::write_broken(const std::vector<Cell>& cells, std::size_t columns)
 {
     const std::size_t inner = columns + step;
+    std::size_t indented = columns;  // of the line being written
     bool first = true;
     for (const Cell& cell : cells) {
         for (const Piece& piece : cell) {
             const std::string text = flat(piece);
             const std::size_t size = character_count(text);
-            if (!first && column() + 1 + size <= widest_line) {
+            // What is broken anyway may as well start here.
+            const bool breaks = piece.value.valid() && inner + size > widest_line;
+            const bool here =
+                breaks ? column() * 2 < widest_line : column() + 1 + size <= widest_line;
+            if (!first && here) {
                 out_ += ' ';
             } else if (!first) {
                 out_ += '\n';
                 indent(inner);
+                indented = inner;
             }
             first = false;
-            if (!piece.value.valid() || column() + size <= widest_line) {
+            if (!breaks) {
                 out_ += text;
                 continue;
             }
             out_ += piece.text + (piece.parentheses ? " (" : " ");
-            out_ += expressions_.broken(piece.value, column(), inner + step);
+            out_ += expressions_.broken(piece.value, column(), indented);
             if (piece.parentheses) out_ += ')';
         }
     }

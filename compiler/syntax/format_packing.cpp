@@ -18,14 +18,14 @@ std::string text_of(const SlotClause& slot)
     return fmt::format("{}[{}..{}]", name, *slot.low, *slot.high);
 }
 
-std::string text_of(const LineWriter& writer, const CodeClause& code)
+Cell pieces(const LineWriter& writer, const CodeClause& code)
 {
-    std::string arguments;
-    for (const ExpressionId id : code.arguments)
-        arguments +=
-            fmt::format("{}{}", arguments.empty() ? "" : ", ", writer.expressions().flat(id));
-    return fmt::format("code {}{}", code.name.text,
-                       code.arguments.empty() ? "" : fmt::format("({})", arguments));
+    if (code.arguments.empty()) return {{"code " + code.name.text}};
+    std::vector<std::string> arguments;
+    for (const ExpressionId id : code.arguments) arguments.push_back(writer.expressions().flat(id));
+    Cell result = list(fmt::format("code {}(", code.name.text), arguments);
+    result.back().text += ')';
+    return result;
 }
 
 Line line(const LineWriter& writer, const FieldClause& field)
@@ -35,7 +35,8 @@ Line line(const LineWriter& writer, const FieldClause& field)
     const std::string component = field.component ? "." + field.component->text : "";
     Cell stored{{fmt::format(": {} {}", field.storage.kind.text, field.storage.bits)}};
     if (field.range) stored.push_back({"in " + writer.range(*field.range)});
-    if (field.code) stored.push_back({text_of(writer, *field.code)});
+    if (field.code)
+        for (Piece& piece : pieces(writer, *field.code)) stored.push_back(std::move(piece));
     return line_of(field,
                    {list("", slots),
                     {{fmt::format("= {}{}", field.parameter.text, component)}},

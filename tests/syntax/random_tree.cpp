@@ -36,7 +36,7 @@ private:
 
     Identifier name()
     {
-        static constexpr std::array<std::string_view, 17> words{
+        static constexpr std::array<std::string_view, 26> words{
             "a",
             "b",
             "cos_d",
@@ -49,6 +49,15 @@ private:
             "param",
             "source",
             "tier",
+            "code",
+            "on",
+            "for",
+            "lent",
+            "exists",
+            "channel",
+            "gbuffer",
+            "require",
+            "color",
             "pi",
             "m",
             "base",
@@ -167,6 +176,185 @@ private:
         return result;
     }
 
+    // ---- blocks of lines
+
+    /// What stands around a line; docs only where they document.
+    template <class Line>
+    Line surrounded(Line line, bool docs)
+    {
+        line.comments = comments(docs);
+        line.blank_before = chance(4);
+        line.trailing = trailing();
+        return line;
+    }
+
+    RangeClause range()
+    {
+        const ExpressionId low = expression(2);
+        return {low, expression(2), {}};
+    }
+    StorageClause storage() { return {name(), below(64), {}}; }
+
+    FactClause fact()
+    {
+        FactClause result;
+        result.kind = static_cast<FactClause::Kind>(below(6));
+        if (result.kind == FactClause::Kind::format)
+            result.storage = storage();
+        else if (result.kind != FactClause::Kind::exists)
+            result.text = text();
+        if (result.kind == FactClause::Kind::holds) {
+            result.name = name();
+            result.lent = chance(2);
+        }
+        const bool exists = result.kind == FactClause::Kind::exists;
+        if (exists || (result.kind != FactClause::Kind::field && chance(2)))
+            result.condition = expression();
+        if (exists && chance(2)) result.otherwise = expression();
+        return surrounded(std::move(result), false);
+    }
+    std::vector<FactClause> facts()
+    {
+        std::vector<FactClause> result;
+        for (int i = below(4); i > 0; --i) result.push_back(fact());
+        return result;
+    }
+
+    GbufferItem gbuffer()
+    {
+        GbufferItem result;
+        result.name = name();
+        for (int i = below(3); i > 0; --i) {
+            SettingItem setting;
+            setting.name = name();
+            setting.label = text();
+            setting.values = names();
+            setting.default_value = name();
+            result.settings.push_back(surrounded(std::move(setting), true));
+        }
+        for (int i = below(3); i > 0; --i) {
+            TargetClause target;
+            target.name = name();
+            target.label = text();
+            target.facts = facts();
+            for (int j = below(4); j > 0; --j) {
+                ChannelClause channel;
+                channel.name = name();
+                channel.label = text();
+                channel.facts = facts();
+                target.channels.push_back(surrounded(std::move(channel), true));
+            }
+            result.targets.push_back(surrounded(std::move(target), true));
+        }
+        for (int i = below(3); i > 0; --i) {
+            PinClause pin;
+            pin.name = name();
+            pin.label = text();
+            if (chance(2)) pin.range = range();
+            pin.default_value = expression();
+            result.pins.push_back(surrounded(std::move(pin), true));
+        }
+        return result;
+    }
+
+    CodeItem code()
+    {
+        CodeItem result;
+        result.name = name();
+        result.value = {name(), type()};
+        result.encode = expression();
+        result.stored = name();
+        result.decode = expression();
+        result.encode_comments = comments(false);
+        result.encode_trailing = trailing();
+        result.decode_comments = comments(false);
+        result.decode_trailing = trailing();
+        return result;
+    }
+
+    FieldClause field()
+    {
+        FieldClause result;
+        for (int i = 1 + below(3); i > 0; --i) {
+            SlotClause slot{name(), name(), std::nullopt, std::nullopt, {}};
+            if (chance(2)) {
+                slot.low = below(64);
+                slot.high = *slot.low + below(64 - *slot.low);
+            }
+            result.slots.push_back(std::move(slot));
+        }
+        result.parameter = name();
+        if (chance(3)) result.component = name();
+        result.storage = storage();
+        if (chance(2)) result.range = range();
+        if (chance(2)) {
+            CodeClause clause{name(), {}, {}};
+            for (int i = below(3); i > 0; --i) clause.arguments.push_back(expression(2));
+            result.code = std::move(clause);
+        }
+        return surrounded(std::move(result), true);
+    }
+
+    PackingClause clause()
+    {
+        PackingClause result;
+        result.kind = static_cast<PackingClause::Kind>(below(5));
+        switch (result.kind) {
+        case PackingClause::Kind::exact:
+            for (int i = 1 + below(4); i > 0; --i) result.exact.push_back({name(), expression(3)});
+            break;
+        case PackingClause::Kind::radiance: result.limit = make(Number{"2.5"}); break;
+        case PackingClause::Kind::supports:
+            result.name = name();
+            result.names = names();
+            break;
+        case PackingClause::Kind::over:
+            result.name = name();
+            result.range = range();
+            break;
+        case PackingClause::Kind::without: result.names = names(); break;
+        }
+        return surrounded(std::move(result), false);
+    }
+
+    PackingItem packing()
+    {
+        PackingItem result{name(), name(), {}};
+        for (int i = below(6); i > 0; --i) {
+            if (chance(2))
+                result.lines.emplace_back(field());
+            else
+                result.lines.emplace_back(clause());
+        }
+        return result;
+    }
+
+    EngineItem engine()
+    {
+        EngineItem result{name(), name(), {}};
+        for (int i = below(6); i > 0; --i) {
+            EngineClause line;
+            line.kind = static_cast<EngineClause::Kind>(below(4));
+            switch (line.kind) {
+            case EngineClause::Kind::shading_model: line.text = text(); break;
+            case EngineClause::Kind::pin:
+                line.name = name();
+                line.parameter = name();
+                if (chance(2)) line.text = text();
+                break;
+            case EngineClause::Kind::node:
+                line.text = text();
+                line.names = names();
+                break;
+            case EngineClause::Kind::color:
+                for (int j = 0; j < 3; ++j) line.color.push_back(expression(2));
+                break;
+            }
+            result.lines.push_back(surrounded(std::move(line), false));
+        }
+        return result;
+    }
+
     template <class Node>
     void add(Node node)
     {
@@ -180,7 +368,11 @@ private:
 
     void add_any()
     {
-        switch (below(6)) {
+        switch (below(10)) {
+        case 6: return add(gbuffer());
+        case 7: return add(code());
+        case 8: return add(packing());
+        case 9: return add(engine());
         case 0: return add(SourceItem{name(), text()});
         case 1: return add(TierItem{names()});
         case 2: {
