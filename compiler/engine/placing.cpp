@@ -1,0 +1,343 @@
+#include "engine/placing.h"
+
+#include "engine/answers.h"
+#include "engine/regions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace lobe::engine {
+namespace {
+
+/// What all of these lines start with, of blanks.
+std::string common_indentation(const std::vector<Line>& lines, std::size_t from, std::size_t to)
+{
+    std::string_view common = indentation(lines[from].text);
+    for (std::size_t line = from + 1; line < to; ++line) {
+        const std::string_view other = indentation(lines[line].text);
+        const auto differ = std::ranges::mismatch(common, other);
+        common = common.substr(0, static_cast<std::size_t>(differ.in1 - common.begin()));
+    }
+    return std::string{common};
+}
+
+bool ends_in_backslash(std::string_view line)
+{
+    const auto last = line.find_last_not_of(" \t\r");
+    return last != std::string_view::npos && line[last] == '\\';
+}
+
+/// One edit in one file.
+class Placer {
+public:
+    Placer(const Edit& edit, const Searched& file, const emit::Record& record,
+           std::vector<Obstacle>& obstacles)
+        : edit_(edit), file_(file), lines_(file.lines.lines), record_(record), obstacles_(obstacles)
+    {
+    }
+
+    std::vector<Placement> run()
+    {
+        const auto hits = find();
+        if (!hits) return {};
+        if (edit_.action == Action::append)
+            append(*hits);
+        else
+            for (const Hit& hit : *hits) place(hit);
+        return std::move(places_);
+    }
+
+private:
+    /// As many hits as there should be.
+    std::optional<std::vector<Hit>> find()
+    {
+        Search found = search(file_, edit_.anchor, value_of(record_));
+        if (found.obstacle) {
+            if (edit_.anchor.least_hits == 0 && found.is_absent) return std::nullopt;
+            found.obstacle->edit = edit_.name;
+            obstacles_.push_back(std::move(*found.obstacle));
+            return std::nullopt;
+        }
+        const auto least = static_cast<std::size_t>(edit_.anchor.least_hits);
+        const auto most = static_cast<std::size_t>(edit_.anchor.most_hits);
+        std::vector<Hit>& hits = found.hits;
+        if (hits.size() < least) return missing(hits, found.where);
+        if (hits.size() > most)
+            return fail(lines_of(file_, *hits[0][0]).first,
+                        fmt::format("the anchor hits {} times, in lines {}; {} expected",
+                                    hits.size(), shown_lines(file_, hits),
+                                    most == 1 ? "once is" : fmt::format("{} are", most)),
+                        fmt::format("make the anchor in line {} of the list narrower, or give it a "
+                                    "`scope`",
+                                    edit_.line));
+        if (edit_.last && hits.size() > 1) hits.erase(hits.begin(), hits.end() - 1);
+        return std::move(hits);
+    }
+
+    std::nullopt_t missing(const std::vector<Hit>& hits, Stretch where)
+    {
+        std::string what = hits.empty() ? "the anchor does not hit"
+                                        : fmt::format("the anchor hits {} times, in lines {}; "
+                                                      "at least {} are expected",
+                                                      hits.size(), shown_lines(file_, hits),
+                                                      edit_.anchor.least_hits);
+        std::size_t line = lines_.size();
+        if (!edit_.anchor.scope.empty()) {
+            line = file_.line_at(where.begin);
+            what += fmt::format(", in lines {}-{}", file_.shown_line(line),
+                                file_.shown_line(file_.line_at(where.end - 1)));
+        }
+        return fail(line, std::move(what),
+                    fmt::format("find out what became of that line, and change the anchor in line "
+                                "{} of the list",
+                                edit_.line));
+    }
+
+    std::nullopt_t fail(std::size_t line, std::string what, std::string help)
+    {
+        obstacles_.push_back({file_.path, file_.shown_line(line), edit_.name, edit_.anchor.pattern,
+                              std::move(what), std::move(help)});
+        return std::nullopt;
+    }
+
+    /// The lines of the edit's text for this hit; nothing if it cannot be rendered.
+    std::optional<std::vector<std::string>> text(const Hit& hit)
+    {
+        emit::Record record = record_;
+        for (std::size_t group = 0; group < hit.size(); ++group)
+            record.texts[fmt::format("{}", group)] =
+                hit[group] ? std::string{file_.at(*hit[group])} : std::string{};
+        const emit::Rendered rendered =
+            emit::render(edit_.name, edit_.text, record, emit::Unused::fine);
+        if (!rendered.error.empty())
+            return fail(lines_of(file_, *hit[0]).first,
+                        fmt::format("the text of the edit: {}", rendered.error),
+                        fmt::format("change the text behind line {} of the list", edit_.line));
+        std::vector<std::string> result;
+        for (std::string_view line : split_lines(rendered.text)) {
+            if (line.ends_with('\r')) line.remove_suffix(1);
+            result.emplace_back(line);
+        }
+        return result;
+    }
+
+    std::optional<std::string> joined_text(const Hit& hit)
+    {
+        const auto parts = text(hit);
+        if (!parts) return std::nullopt;
+        std::string joined;
+        for (const std::string& part : *parts) joined += part;
+        return joined;
+    }
+
+    void place(const Hit& hit)
+    {
+        const LineRange range = lines_of(file_, *hit[0]);
+        if (edit_.action == Action::clone) return clone(hit, range);
+        auto new_lines = text(hit);
+        if (!new_lines) return;
+        if (edit_.action == Action::replace) return replace(*hit[0], range, std::move(*new_lines));
+        if (new_lines->empty()) return;
+        const std::string indent = text_indentation(range.first);
+        indent_all(*new_lines, indent);
+        const std::size_t at = edit_.action == Action::before ? range.first : range.last + 1;
+        insert(at, indent, std::move(*new_lines));
+    }
+
+    std::string text_indentation(std::size_t line) const
+    {
+        return edit_.flush ? std::string{} : std::string{indentation(lines_[line].text)};
+    }
+
+    static void indent_all(std::vector<std::string>& lines, const std::string& indent)
+    {
+        for (std::string& line : lines)
+            if (!line.empty()) line.insert(0, indent);
+    }
+
+    void replace(Stretch hit, LineRange range, std::vector<std::string> new_lines)
+    {
+        const std::size_t first = file_.starts[range.first];
+        const std::size_t last = file_.starts[range.last];
+        std::string_view head{lines_[range.first].text};
+        head = head.substr(0, hit.begin > first ? hit.begin - first : 0);
+        std::string_view tail{lines_[range.last].text};
+        tail = tail.substr(std::min(tail.size(), hit.end > last ? hit.end - last : 0));
+
+        const bool keeps_head = !is_blank(head);
+        const bool keeps_tail = !is_blank(tail);
+        if (new_lines.empty() && (keeps_head || keeps_tail)) new_lines.emplace_back();
+        const std::string bare_first = new_lines.empty() ? std::string{} : new_lines.front();
+        indent_all(new_lines, text_indentation(range.first));
+        if (keeps_head) new_lines.front() = std::string{head} + bare_first;
+        if (keeps_tail) new_lines.back() += tail;
+        add(range.first, range.last + 1, common_indentation(lines_, range.first, range.last + 1),
+            std::move(new_lines));
+    }
+
+    /// Hits may share a line, which is changed as a whole then.
+    void append(const std::vector<Hit>& hits)
+    {
+        struct Insertion {
+            std::size_t line;
+            std::size_t column;
+            std::string text;
+        };
+        std::vector<Insertion> insertions;
+        for (const Hit& hit : hits) {
+            const auto added = joined_text(hit);
+            if (!added) return;
+            if (!hit[1]) {
+                fail(lines_of(file_, *hit[0]).first, "group 1 of the anchor is no part of the hit",
+                     fmt::format("change the anchor in line {} of the list", edit_.line));
+                return;
+            }
+            const std::size_t line = file_.line_at(hit[1]->begin);
+            if (!added->empty())
+                insertions.push_back({line, hit[1]->begin - file_.starts[line], *added});
+        }
+        for (std::size_t i = 0; i < insertions.size();) {
+            const std::size_t line = insertions[i].line;
+            std::string changed = lines_[line].text;
+            std::size_t shift = 0;
+            for (; i < insertions.size() && insertions[i].line == line; ++i) {
+                changed.insert(insertions[i].column + shift, insertions[i].text);
+                shift += insertions[i].text.size();
+            }
+            add(line, line + 1, std::string{indentation(lines_[line].text)}, {changed});
+        }
+    }
+
+    void clone(const Hit& hit, LineRange range)
+    {
+        const auto other = joined_text(hit);
+        if (!other || other->empty()) return;
+        const std::size_t first = file_.starts[range.first];
+        if (!hit[1] || hit[1]->begin < first) {
+            fail(range.first, "group 1 of the anchor is no part of the lines to copy",
+                 fmt::format("change the anchor in line {} of the list", edit_.line));
+            return;
+        }
+        const std::size_t end = file_.starts[range.last] + lines_[range.last].text.size();
+        std::string copy = file_.text.substr(first, end - first);
+        copy.replace(hit[1]->begin - first, hit[1]->end - hit[1]->begin, *other);
+        std::vector<std::string> new_lines;
+        for (const std::string_view line : split_lines(copy)) new_lines.emplace_back(line);
+        insert(range.last + 1, std::string{indentation(lines_[range.first].text)},
+               std::move(new_lines));
+    }
+
+    /// Behind a last line without an end nothing can be put: that line becomes part of the region.
+    void insert(std::size_t at, std::string indent, std::vector<std::string> new_lines)
+    {
+        if (at == lines_.size() && lines_.back().end == LineEnd::none) {
+            new_lines.insert(new_lines.begin(), lines_.back().text);
+            add(at - 1, at, std::string{indentation(lines_.back().text)}, std::move(new_lines));
+        } else {
+            add(at, at, std::move(indent), std::move(new_lines));
+        }
+    }
+
+    void add(std::size_t from, std::size_t to, std::string indent,
+             std::vector<std::string> new_lines)
+    {
+        places_.push_back({edit_.name,
+                           edit_.anchor.pattern,
+                           from,
+                           to,
+                           std::move(indent),
+                           std::move(new_lines),
+                           0,
+                           {}});
+    }
+
+    const Edit& edit_;
+    const Searched& file_;
+    const std::vector<Line>& lines_;
+    const emit::Record& record_;
+    std::vector<Obstacle>& obstacles_;
+    std::vector<Placement> places_;
+};
+
+}  // namespace
+
+std::vector<Placement> place(const Edit& edit, const Searched& file, const emit::Record& record,
+                             std::vector<Obstacle>& obstacles)
+{
+    return Placer{edit, file, record, obstacles}.run();
+}
+
+void check_places(const Searched& file, const std::vector<Placement>& places,
+                  std::vector<Obstacle>& obstacles)
+{
+    const std::vector<Line>& lines = file.lines.lines;
+    for (const Placement& place : places) {
+        const auto refuse = [&](std::size_t line, std::string what, std::string help) {
+            obstacles.push_back({file.path, file.shown_line(line), place.edit, place.anchor,
+                                 std::move(what), std::move(help)});
+        };
+        // Between two lines there is room for a region unless the first continues in the second.
+        for (const std::size_t at : {place.from, place.to})
+            if (at > 0 && ends_in_backslash(lines[at - 1].text)) {
+                refuse(at - 1, "a line that ends in a backslash continues where the region goes",
+                       "move the anchor before or behind the whole macro");
+                break;
+            }
+        // The line end in front of the region's first line.
+        if (place.from > 0 &&
+            file.parts[file.starts[place.from - 1] + lines[place.from - 1].text.size()] ==
+                Part::block_comment)
+            refuse(place.from, "the region would stand inside of a comment",
+                   "move the anchor to where code is");
+        for (std::size_t line = place.from; line < place.to; ++line)
+            if (file.marks[line]) {
+                refuse(line, "the lines to be changed reach over a mark of another model's region",
+                       "revert that model, patch this one, then patch that one again");
+                break;
+            }
+        if (std::ranges::any_of(place.lines, looks_like_mark))
+            refuse(place.from, "the text of the edit has a line that looks like a region's mark",
+                   "word that line differently");
+        if (!place.lines.empty() && ends_in_backslash(place.lines.back()))
+            refuse(place.from, "the text of the edit ends in a backslash", "end it in whole lines");
+        for (const Placement& other : places) {
+            const bool inside =
+                place.from == place.to
+                    ? other.from < place.from && place.from < other.to
+                    : &other < &place && other.from < place.to && place.from < other.to;
+            if (inside)
+                refuse(place.from, fmt::format("edit `{}` changes the same lines", other.edit),
+                       "make one edit of the two in the list");
+        }
+    }
+}
+
+Lines with_regions(const Searched& file, std::vector<Placement> places, const std::string& model,
+                   int total)
+{
+    // By place, what goes in front of a line before what takes its place; else the list's order.
+    std::ranges::stable_sort(places, {}, [](const Placement& place) {
+        return std::pair{place.from, place.from != place.to};
+    });
+    const std::vector<Line>& lines = file.lines.lines;
+    const LineEnd usual = usual_end(file.lines);
+    Lines result;
+    result.byte_order_mark = file.lines.byte_order_mark;
+    std::size_t at = 0;
+    for (const Placement& place : places) {
+        for (; at < place.from; ++at) result.lines.push_back(lines[at]);
+        NewRegion region{model,           place.edit, place.number, total, place.indent,
+                         place.new_files, {},         place.lines,  usual};
+        for (; at < place.to; ++at) region.before.push_back(lines[at]);
+        const std::size_t neighbor = std::min(place.from, lines.size() - 1);
+        if (lines[neighbor].end != LineEnd::none) region.end = lines[neighbor].end;
+        write_region(region, result.lines);
+    }
+    for (; at < lines.size(); ++at) result.lines.push_back(lines[at]);
+    return result;
+}
+
+}  // namespace lobe::engine

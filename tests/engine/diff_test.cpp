@@ -1,0 +1,3 @@
+#include "engine/tree.h"
+
+#include <catch2/catch.hpp>
