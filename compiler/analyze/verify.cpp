@@ -49,16 +49,17 @@ public:
     struct Job {
         enum class Kind {
             judge_file,
+            round_trip,
             prepare,
             run_row
         } kind{};
-        std::size_t index = 0;  ///< of the file or the subject
+        std::size_t index = 0;  ///< of the file, the round trip or the subject
         std::size_t row = 0;
     };
 
-    Schedule(std::vector<Subject>& subjects, std::size_t files, std::size_t total,
-             const std::function<void(const Progress&)>& progress)
-        : subjects_(subjects), files_(files), total_(total), progress_(progress)
+    Schedule(std::vector<Subject>& subjects, std::size_t files, std::size_t trips,
+             std::size_t total, const std::function<void(const Progress&)>& progress)
+        : subjects_(subjects), files_(files), trips_(trips), total_(total), progress_(progress)
     {
     }
 
@@ -68,6 +69,7 @@ public:
         std::unique_lock lock{mutex_};
         for (;;) {
             if (next_file_ < files_) return Job{Job::Kind::judge_file, next_file_++, 0};
+            if (next_trip_ < trips_) return Job{Job::Kind::round_trip, next_trip_++, 0};
             bool all_taken = true;
             for (std::size_t i = 0; i < subjects_.size(); ++i) {
                 Subject& subject = subjects_[i];
@@ -108,6 +110,8 @@ private:
     std::vector<Subject>& subjects_;
     std::size_t files_;
     std::size_t next_file_ = 0;
+    std::size_t trips_;
+    std::size_t next_trip_ = 0;
     std::size_t done_ = 0;
     std::size_t total_;
     const std::function<void(const Progress&)>& progress_;
@@ -133,7 +137,8 @@ public:
                 fmt::format("{}; driver {}", device_->facts().name, device_->facts().driver);
         plan();
 
-        Schedule schedule{subjects_, files_.size(), files_.size() + out_.rows.size(),
+        const std::size_t trips = out_.round_trips.size();
+        Schedule schedule{subjects_, files_.size(), trips, files_.size() + trips + out_.rows.size(),
                           options_.progress};
         const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
         const unsigned workers = options_.jobs > 0 ? options_.jobs : cores;
@@ -155,8 +160,7 @@ private:
         if (precision == emit::Precision::float32) return true;
         if (target.name != "glsl450") return false;  // the one target that emits half precision
         if (!device_ || device_->facts().float16) return true;
-        const std::string note = "float16: the device does not compute in it";
-        if (std::ranges::find(out_.notes, note) == out_.notes.end()) out_.notes.push_back(note);
+        note("float16: the device does not compute in it");
         return false;
     }
 
@@ -165,13 +169,16 @@ private:
         for (const emit::Target* target : targets_)
             for (emit::Artifact& artifact : emit::emit(module_, sources_, *target))
                 files_.push_back({target, std::move(artifact), {}});
+        plan_round_trips();
         for (const ir::FunctionId function : checked_functions(module_)) {
             const std::size_t first = subjects_.size();
             for (const emit::Precision precision : options_.precisions)
                 subjects_.push_back({function, precision, {}, {}, 0, 0, {}, nullptr});
             for (const emit::Target* target : targets_)
                 for (std::size_t i = first; i < subjects_.size(); ++i) {
-                    if (!wants(*target, subjects_[i].precision)) continue;
+                    if (!wants(*target, subjects_[i].precision) ||
+                        !has_codes(module_[function], subjects_[i].precision))
+                        continue;
                     subjects_[i].rows.push_back(out_.rows.size());
                     Row& row = out_.rows.emplace_back();
                     row.term = module_[function].name;
@@ -181,6 +188,31 @@ private:
         }
         std::erase_if(subjects_, [](const Subject& subject) { return subject.rows.empty(); });
         plan_bxdfs();
+    }
+
+    /// False, with a note, where a precision has not the whole numbers that codes are.
+    bool has_codes(const ir::Function& function, emit::Precision precision)
+    {
+        if (function.kind != ir::Function::Kind::storage || precision == emit::Precision::float32)
+            return true;
+        note("float16: what packs and unpacks; it has no whole numbers past 2,048");
+        return false;
+    }
+
+    void note(const std::string& text)
+    {
+        if (std::ranges::find(out_.notes, text) == out_.notes.end()) out_.notes.push_back(text);
+    }
+
+    void plan_round_trips()
+    {
+        for (std::size_t i = 0; i < module_.packings.size(); ++i)
+            for (const emit::Target* target : targets_) {
+                out_.round_trips.emplace_back();
+                trips_.emplace_back(i, target);
+            }
+        trip_references_.resize(module_.packings.size());
+        trip_begun_ = std::vector<std::once_flag>(module_.packings.size());
     }
 
     /// The outputs of every BxDF, which exist for one target and in one precision.
@@ -211,6 +243,7 @@ private:
                 what = file.artifact.path;
                 break;
             }
+            case Schedule::Job::Kind::round_trip: what = run_round_trip(job->index); break;
             case Schedule::Job::Kind::prepare: prepare(subjects_[job->index]); break;
             case Schedule::Job::Kind::run_row: {
                 Row& row = out_.rows[job->row];
@@ -221,6 +254,18 @@ private:
             }
             schedule.finish(*job, what);
         }
+    }
+
+    /// What it was, for people.
+    std::string run_round_trip(std::size_t index)
+    {
+        const auto [packing, target] = trips_[index];
+        std::call_once(trip_begun_[packing],
+                       [&] { trip_references_[packing] = trip_reference(module_, packing); });
+        RoundTrip& trip = out_.round_trips[index];
+        trip = round_trip(module_, sources_, packing, *target, trip_references_[packing],
+                          device_ ? &*device_ : nullptr);
+        return fmt::format("{}, {}", trip.packing, trip.target);
     }
 
     void prepare(Subject& subject)
@@ -270,6 +315,9 @@ private:
     std::vector<File> files_;
     std::vector<Subject> subjects_;
     std::vector<emit::BxdfCheck> bxdfs_;
+    std::vector<std::pair<std::size_t, const emit::Target*>> trips_;  ///< packing, target
+    std::vector<TripReference> trip_references_;                      ///< per packing
+    std::vector<std::once_flag> trip_begun_;
     std::mutex mutex_;  ///< guards the sums in `out_`
 };
 
@@ -284,6 +332,7 @@ bool Row::ok() const
 bool Verification::ok() const
 {
     return std::ranges::all_of(rows, &Row::ok) &&
+           std::ranges::all_of(round_trips, &RoundTrip::ok) &&
            std::ranges::all_of(judgements, &Judgement::accepted);
 }
 
@@ -342,6 +391,8 @@ Diagnostics complaints(const Verification& verification, const ir::Module& modul
         for (const Judgement& judgement : row.judgements)
             complain(judgement, function ? module[*function].span : start);
     }
+    for (const RoundTrip& trip : verification.round_trips)
+        for (const Judgement& judgement : trip.judgements) complain(judgement, start);
     return out;
 }
 

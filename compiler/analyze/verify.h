@@ -6,6 +6,7 @@
 
 #include "analyze/agreement.h"
 #include "analyze/judgement.h"
+#include "analyze/round_trip.h"
 #include "base/diagnostic.h"
 #include "emit/emit.h"
 #include "ir/module.h"
@@ -50,10 +51,11 @@ struct Row {
 };
 
 struct Verification {
-    std::string module;                 ///< its name
-    std::vector<Judgement> judgements;  ///< of the files: by target, file, judge
-    std::vector<Row> rows;              ///< by term, target, precision
-    std::string device;                 ///< name and driver; empty when nothing was executed
+    std::string module;                  ///< its name
+    std::vector<Judgement> judgements;   ///< of the files: by target, file, judge
+    std::vector<Row> rows;               ///< by term, target, precision
+    std::vector<RoundTrip> round_trips;  ///< by packing, target
+    std::string device;                  ///< name and driver; empty when nothing was executed
     std::string no_device;           ///< why nothing was executed; empty: it was, or was not asked
     std::vector<std::string> notes;  ///< what was left out, and why: `float16: …`
     double seconds = 0;              ///< wall clock
