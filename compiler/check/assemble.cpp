@@ -25,6 +25,20 @@ std::string comments_text(const std::vector<syntax::Comment>& comments)
     return text;
 }
 
+/// What packings and engines name is read by their model, so it is kept.
+void renumber(ir::Packing& packing, const std::vector<std::uint32_t>& moved)
+{
+    for (ir::Field& field : packing.fields) field.parameter = moved[field.parameter];
+    for (ir::ExactRequirement& exact : packing.exact) exact.parameter = moved[exact.parameter];
+}
+
+void renumber(ir::Engine& engine, const std::vector<std::uint32_t>& moved)
+{
+    for (ir::Engine::PinUse& pin : engine.pins) pin.parameter = moved[pin.parameter];
+    if (!engine.node) return;
+    for (std::uint32_t& parameter : engine.node->parameters) parameter = moved[parameter];
+}
+
 /// Sources keep their name, unless another file gave it to another source.
 class SourceList {
 public:
@@ -93,6 +107,9 @@ ir::Module assemble(Program& program, Declarations declarations, const Sources& 
     module.doc = comments_text(root.tree.header);
     module.effects = std::move(declarations.effects);
     module.models = std::move(declarations.models);
+    module.gbuffers = std::move(declarations.gbuffers);
+    module.packings = std::move(declarations.packings);
+    module.engines = std::move(declarations.engines);
 
     SourceList list{module.sources};
     for (const syntax::Item& item : root.tree.items) {
@@ -113,6 +130,9 @@ ir::Module assemble(Program& program, Declarations declarations, const Sources& 
             module.tiers.push_back(parameter.tier);
         module.parameters.push_back(std::move(parameter));
     }
+
+    for (ir::Packing& packing : module.packings) renumber(packing, moved);
+    for (ir::Engine& engine : module.engines) renumber(engine, moved);
 
     module.functions = std::move(program.functions);
     for (ir::Function& function : module.functions) {

@@ -9,10 +9,14 @@ namespace lobe::check {
 struct Declarations {
     std::vector<ir::Effect> effects;
     std::vector<ir::Model> models;
+    std::vector<ir::Gbuffer> gbuffers;
+    std::vector<ir::Packing> packings;
+    std::vector<ir::Engine> engines;
 };
 
 /// The module of the root file. Parameters of other files come along where a function reads them
-/// or where they are the root's own; their inputs are renumbered. Sources likewise.
+/// or where they are the root's own; what names them is renumbered. Sources likewise. The functions
+/// of packings are not built yet.
 ir::Module assemble(Program& program, Declarations declarations, const Sources& sources);
 
 /// Names that imports bring along and that collide with one another or with the root's own

@@ -68,6 +68,8 @@ bool is_written(const syntax::Tree& tree, syntax::ExpressionId id)
     return std::holds_alternative<syntax::Number>(tree[id].node);
 }
 
+}  // namespace
+
 bool resolve_range(const syntax::Tree& tree, const syntax::RangeClause& clause, ir::Range& range,
                    Diagnostics& diagnostics)
 {
@@ -94,8 +96,6 @@ bool resolve_range(const syntax::Tree& tree, const syntax::RangeClause& clause, 
     diagnostics.report(std::move(diagnostic));
     return false;
 }
-
-}  // namespace
 
 std::optional<DeclaredType> resolve_type(const syntax::Tree& tree, const syntax::TypeClause& clause,
                                          Place place, Diagnostics& diagnostics)

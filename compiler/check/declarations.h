@@ -16,6 +16,10 @@ enum class Place {
 std::optional<DeclaredType> resolve_type(const syntax::Tree& tree, const syntax::TypeClause& clause,
                                          Place place, Diagnostics& diagnostics);
 
+/// The ends of `in [low, high]`, low < high. False if they are no range (reported: E0505, E0508).
+bool resolve_range(const syntax::Tree& tree, const syntax::RangeClause& clause, ir::Range& range,
+                   Diagnostics& diagnostics);
+
 /// The declared arguments of a term or model. At most one geometry and one surface.
 Signature resolve_signature(const syntax::Tree& tree,
                             const std::vector<syntax::ParameterClause>& parameters,

@@ -114,6 +114,45 @@ std::optional<std::size_t> nearest_to_default(const Gbuffer& gbuffer, const Conf
     return nearest;
 }
 
+namespace {
+
+/// The fewest bits of a channel that is a unorm everywhere here; 0 if it is not.
+int unorm_bits(const Channel& channel, const Configurations& supported)
+{
+    int bits = 0;
+    for (std::size_t i = 0; i < supported.size(); ++i) {
+        if (!supported[i]) continue;
+        const Format format = channel.formats[i];
+        if (!channel.exists[i] || format.storage != Storage::unorm) return 0;
+        bits = bits == 0 ? format.bits : std::min(bits, format.bits);
+    }
+    return bits;
+}
+
+}  // namespace
+
+std::vector<Room> free_channels(const Gbuffer& gbuffer, const Configurations& supported,
+                                const std::vector<std::string>& without)
+{
+    const auto acts = [&](const auto& fact) { return any(both(fact.when, supported)); };
+    std::vector<Room> result;
+    for (std::size_t i = 0; i < gbuffer.channels.size(); ++i) {
+        const Channel& channel = gbuffer.channels[i];
+        const int bits = unorm_bits(channel, supported);
+        const bool held = std::ranges::any_of(channel.holders, [&](const Channel::Holder& holder) {
+            const bool given_up =
+                holder.lent && std::ranges::find(without, holder.name) != without.end();
+            return acts(holder) && !given_up;
+        });
+        if (bits == 0 || channel.field.empty() || held ||
+            std::ranges::any_of(channel.consumers, acts) ||
+            std::ranges::any_of(channel.changes, acts))
+            continue;
+        result.push_back({i, bits});
+    }
+    return result;
+}
+
 Configurations both(const Configurations& a, const Configurations& b)
 {
     Configurations result(a.size());

@@ -126,6 +126,19 @@ struct Gbuffer {
 /// nothing if the set is empty.
 std::optional<std::size_t> nearest_to_default(const Gbuffer& gbuffer, const Configurations& set);
 
+/// A channel that a packing may use, and the bits that it has at least, where the packing has to
+/// work.
+struct Room {
+    std::size_t channel = 0;  ///< index into Gbuffer::channels
+    int bits = 0;
+};
+
+/// The channels that a model can reach, that are there as unorm in every one of these
+/// configurations and that nobody else uses in any of them, but for lent contents that the model
+/// goes `without`. In the order of the gbuffer.
+std::vector<Room> free_channels(const Gbuffer& gbuffer, const Configurations& supported,
+                                const std::vector<std::string>& without);
+
 Configurations both(const Configurations& a, const Configurations& b);
 Configurations except(const Configurations& a, const Configurations& b);
 bool any(const Configurations& set);
