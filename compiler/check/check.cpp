@@ -1,9 +1,11 @@
-// The stage on one page: load, declare, lower callees first, prove, assemble.
+// The stage on one page: load, declare, lower callees first, prove, place, assemble.
 #include "check/check.h"
 
 #include "check/assemble.h"
+#include "check/codes.h"
 #include "check/flatten.h"
 #include "check/functions.h"
+#include "check/layouts.h"
 #include "check/modules.h"
 #include "check/names.h"
 #include "check/order.h"
@@ -50,6 +52,10 @@ public:
 
     void lower_items()
     {
+        for (std::size_t i = 0; i < program_.codes.size(); ++i) {
+            if (enough()) return;
+            if (is_needed(program_, NameKind::code, i, program_.codes[i].file)) lower_code(i);
+        }
         for (std::size_t i = 0; i < program_.models.size(); ++i) {
             if (enough()) return;
             if (is_needed(program_, NameKind::model, i, program_.models[i].file)) lower_model(i);
@@ -65,6 +71,17 @@ public:
                 declarations_.effects.push_back({effect->name, function.value_or(ir::FunctionId{}),
                                                  condition, effect->name_span});
             }
+        }
+    }
+
+    /// Whether decode undoes encode; a packing that uses them is looked at all the same.
+    void check_codes()
+    {
+        for (const CodeDeclaration& declared : program_.codes) {
+            if (!declared.encode || !declared.decode || enough()) continue;
+            Diagnostics found;
+            check_inverse(program_, declared, sources_, found);
+            forward_from(declared.file, found);
         }
     }
 
@@ -118,6 +135,17 @@ private:
         for (const Diagnostic& diagnostic : found.all())
             if (own || severity(diagnostic.code) == Severity::error)
                 diagnostics_.report(diagnostic);
+    }
+
+    void lower_code(std::size_t index)
+    {
+        Diagnostics found;
+        LoweredCode lowered = check::lower_code(program_, index, sources_, found);
+        CodeDeclaration& declared = program_.codes[index];
+        declared.encode = settle(lowered.encode, found);
+        declared.decode = settle(lowered.decode, found);
+        check_inverse(program_, declared, sources_, found);
+        forward_from(declared.file, found);
     }
 
     void lower_model(std::size_t index)
@@ -189,10 +217,18 @@ std::optional<ir::Module> check_program(Sources& sources, std::uint32_t root, co
     checking.lower_callables();
     checking.lower_items();
     if (!diagnostics.has_errors()) report_collisions(program, diagnostics);
+    const bool proved = !diagnostics.has_errors();
+    checking.check_codes();
+    Declarations declarations = checking.take();
+    read_layouts(program, declarations, diagnostics);
+    if (!proved) return std::nullopt;
+
+    // What is wrong with the places of fields does not hide what is wrong with their codes.
+    ir::Module module = assemble(program, std::move(declarations), sources);
+    build_packings(module, diagnostics);
     if (diagnostics.has_errors()) return std::nullopt;
 
     report_unused_imports(program, diagnostics);
-    ir::Module module = assemble(program, checking.take(), sources);
     assert(!ir::verify(module));
     return module;
 }

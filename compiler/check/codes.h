@@ -24,9 +24,15 @@ struct LoweredCode {
 LoweredCode lower_code(Program& program, std::size_t index, const Sources& sources,
                        Diagnostics& diagnostics);
 
+/// What holds of a declared code over the reals, once its functions are settled: decode undoes
+/// encode (else E0608), and encode does not fall (else E0609). By intervals at some thousand
+/// values, so what is reported is certain. False if something was reported.
+bool check_inverse(const Program& program, const CodeDeclaration& code, const Sources& sources,
+                   Diagnostics& diagnostics);
+
 /// The code of a field; linear where the clause names none. `field` has its bits, its sign and its
-/// range, `parameter` is what it stores. Nothing if it makes no sense (reported: E0301, E0610, and
-/// E0607 where the range is wider than a declared code's).
+/// range, `parameter` is what it stores. Nothing if it makes no sense (reported: E0610, and E0607
+/// where the range is wider than a declared code's).
 std::optional<ir::Code> read_code(Program& program, std::size_t file,
                                   const syntax::FieldClause& clause, const ir::Field& field,
                                   const ir::Parameter& parameter, Diagnostics& diagnostics);

@@ -10,8 +10,9 @@
 
 namespace lobe::check {
 
-/// Where the codes of declared codes meet the values that must survive (the default, `require
-/// exact`): before `ir::build_functions`, which makes them decode without rounding.
+/// Sets Field::anchors: the values at which an effect is off, and where the codes of a declared
+/// code meet the values that must survive. Before `ir::build_functions`, which makes them decode
+/// without rounding.
 void place_anchors(const ir::Module& module, ir::Packing& packing);
 
 /// Reports, field by field,

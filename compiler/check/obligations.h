@@ -46,6 +46,7 @@ struct Obligation {
         power_zero,  ///< x ^ y where 0 may meet a negative exponent
         argument,    ///< of a term, into its declared range
         result,      ///< of a term, into its declared range
+        stored,      ///< of the encode of a code, into [0, 1]
     };
     Kind kind{};
     std::vector<Claim> any_of;  ///< one of these, at every input

@@ -58,6 +58,7 @@ public:
         case Kind::power_zero: power_zero(); break;
         case Kind::argument: argument(); break;
         case Kind::result: result(); break;
+        case Kind::stored: stored(); break;
         }
         evidence();
         return std::move(diagnostic_);
@@ -182,6 +183,18 @@ private:
         diagnostic_.helps.push_back(
             "declare the range that it has, or no range, which has it inferred");
         diagnostic_.helps.push_back("or keep it inside: `saturate`, `min`, `max` and `clamp` do");
+    }
+
+    void stored()
+    {
+        diagnostic_.code = Code::range_clamped;
+        diagnostic_.message =
+            fmt::format("what `{}` stores {}", obligation_.function,
+                        certain_ ? "can leave [0, 1]" : "is not proved to stay in [0, 1]");
+        diagnostic_.primary.text = fmt::format("this is in {}", text(finding_.ranges[0]));
+        diagnostic_.notes.push_back("0 is the first code and 1 the last one; what is outside is "
+                                    "clamped and lost");
+        diagnostic_.helps.push_back("divide by what the ends of the range give");
     }
 
     /// The input that breaks it, or why none is shown.

@@ -1,0 +1,552 @@
+#include "check/exactness.h"
+
+#include "check/proposals.h"
+#include "check/types.h"
+#include "evaluate/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace lobe::check {
+namespace {
+
+using evaluate::Acceptance;
+using evaluate::Tape;
+
+Acceptance point(double value) { return {value, value, false}; }
+
+template <class Number>
+std::vector<Number> run(const Tape& tape, const std::vector<Number>& points)
+{
+    std::vector<Number> results(points.size());
+    const std::array<const Number*, 1> inputs{points.data()};
+    const std::array<Number*, 1> outputs{results.data()};
+    if constexpr (std::is_same_v<Number, Acceptance>)
+        evaluate::run_acceptance(tape, evaluate::Precision::float32, inputs, outputs,
+                                 points.size());
+    else
+        evaluate::run(tape, evaluate::Columns<Number>{inputs}, evaluate::Results<Number>{outputs},
+                      points.size());
+    return results;
+}
+
+template <class Number>
+Number run_one(const Tape& tape, const Number& value)
+{
+    return run(tape, std::vector<Number>{value})[0];
+}
+
+/// A number among others that may look alike: seven digits, or all that a float has.
+std::string number(double value) { return fmt::format("{:.7g}", value); }
+std::string number_beside(double value, double other)
+{
+    const std::string text = number(value);
+    return text == number(other) && value != other ? fmt::format("{}", static_cast<float>(value))
+                                                   : text;
+}
+
+/// All codes of a field, decoded and encoded again.
+class Run {
+public:
+    Run(const ir::Module& module, const ir::Field& field)
+        : field_(field), encode_(evaluate::compile(module, module[field.encode])),
+          decode_(evaluate::compile(module, module[field.decode]))
+    {
+        const auto count = static_cast<std::size_t>(field.last_code()) + 1;
+        std::vector<float> codes(count);
+        std::vector<double> wide(count);
+        std::vector<Acceptance> points(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            codes[i] = static_cast<float>(i);
+            wide[i] = static_cast<double>(i);
+            points[i] = point(wide[i]);
+        }
+        floats = run(decode_, codes);
+        reals = run(decode_, wide);
+        accepted = run(decode_, points);
+        encoded = run(encode_, accepted);
+        top = code_of(field.range.high);
+        bottom = code_of(field.range.low);
+    }
+
+    std::vector<float> floats;
+    std::vector<double> reals;
+    std::vector<Acceptance> accepted;  ///< what a device may decode a code to
+    std::vector<Acceptance> encoded;   ///< what it may store those values as
+    std::size_t top = 0;               ///< the code of the high end
+    std::size_t bottom = 0;
+
+    std::size_t code_of(double value) const
+    {
+        return static_cast<std::size_t>(run_one(encode_, value));
+    }
+
+    /// What a device may read after it stored a value.
+    Acceptance stored_and_read(double value) const
+    {
+        const Acceptance code = run_one(encode_, point(value));
+        const auto last = static_cast<double>(field_.last_code());
+        Acceptance result = accepted[static_cast<std::size_t>(std::clamp(code.low, 0.0, last))];
+        for (double i = code.low + 1; i <= std::min(code.high, last); ++i) {
+            const Acceptance& other = accepted[static_cast<std::size_t>(i)];
+            result = {std::min(result.low, other.low), std::max(result.high, other.high),
+                      result.undefined || other.undefined};
+        }
+        result.undefined = result.undefined || code.undefined;
+        return result;
+    }
+
+    /// It comes back as the float that it is in a shader, and as nothing else.
+    bool keeps(double value) const
+    {
+        return stored_and_read(value) == point(static_cast<float>(value));
+    }
+
+private:
+    const ir::Field& field_;
+    Tape encode_;
+    Tape decode_;
+};
+
+/// A value that has to come back.
+struct Kept {
+    enum class Why {
+        standard,  ///< the default
+        required,
+        neutral
+    };
+    double value = 0;
+    Why why{};
+    Span span;           ///< required: of the requirement
+    std::string effect;  ///< neutral: that is off there
+};
+
+class FieldCheck {
+public:
+    FieldCheck(const ir::Module& module, const ir::Gbuffer& gbuffer, const ir::Field& field,
+               const Run& run, Diagnostics& diagnostics)
+        : module_(module), gbuffer_(gbuffer), field_(field), run_(run), diagnostics_(diagnostics),
+          parameter_(module.parameters[field.parameter]), name_(parameter_.name)
+    {
+        if (ir::components(parameter_.type) > 1)
+            name_ += fmt::format(".{}", "rgba"[static_cast<std::size_t>(field.component)]);
+    }
+
+    double default_value() const
+    {
+        return parameter_.default_value[static_cast<std::size_t>(field_.component)];
+    }
+
+    /// E0606, once per value.
+    void check_kept(const std::vector<Kept>& values)
+    {
+        std::vector<double> all;
+        for (const Kept& kept : values) all.push_back(kept.value);
+        std::set<double> reported;
+        for (const Kept& kept : values)
+            if (!run_.keeps(kept.value) && reported.insert(kept.value).second)
+                report_inexact(kept, all);
+    }
+
+    /// E0607
+    void check_ends()
+    {
+        if (field_.code.kind == ir::Code::Kind::declared) return;
+        const double last = field_.last_code();
+        if (ir::position(field_, field_.range.high) <= last + 0.5) return;
+        const double reached = run_.reals.back();
+        Diagnostic diagnostic{
+            .code = Code::range_clamped,
+            .message = fmt::format("the codes of `{}` end before its range", name_),
+            .primary = {field_.span,
+                        fmt::format("`{}` reaches {} of {}", describe(field_.code, field_.bits),
+                                    number(reached), number(field_.range.high))},
+            .notes = {fmt::format("what is above is stored as the last code, {}, and read as {}",
+                                  field_.last_code(), number(reached))}};
+        if (const auto pivot = reaching_pivot(field_)) {
+            ir::Code code = field_.code;
+            code.pivot = *pivot;
+            diagnostic.helps.push_back(
+                fmt::format("`{}` reaches the end", describe(code, field_.bits)));
+        }
+        // The nearest number below with three digits.
+        const double unit = std::pow(10.0, std::floor(std::log10(std::abs(reached))) - 2);
+        const double end = std::floor(reached / unit) * unit;
+        if (end > field_.range.low)
+            diagnostic.helps.push_back(fmt::format("or let the field carry less: `in {}`",
+                                                   range_text(field_.range.low, end)));
+        diagnostics_.report(std::move(diagnostic));
+    }
+
+    /// E0609; true if the values rise.
+    bool check_rising()
+    {
+        for (std::size_t i = 1; i <= run_.top; ++i) {
+            if (run_.floats[i] > run_.floats[i - 1] && run_.reals[i] > run_.reals[i - 1]) continue;
+            const bool same = run_.floats[i] == run_.floats[i - 1];
+            const double below = run_.reals[i - 1];
+            const double here = run_.reals[i];
+            diagnostics_.report(
+                {.code = Code::code_not_monotone,
+                 .message = fmt::format("the values of the codes of `{}` do not rise", name_),
+                 .primary = {field_.span,
+                             same ? fmt::format("codes {} and {} are both {}", i - 1, i,
+                                                number(static_cast<double>(run_.floats[i])))
+                                  : fmt::format("code {} is {}, and code {} is {}", i - 1,
+                                                number_beside(below, here), i,
+                                                number_beside(here, below))},
+                 .secondary = declared_labels(),
+                 .notes = same && here > below
+                              ? std::vector<std::string>{"they differ by less than float can say "
+                                                         "there"}
+                              : std::vector<std::string>{},
+                 .helps = {"take fewer bits, or a code with larger steps there"}});
+            return false;
+        }
+        return true;
+    }
+
+    /// E0608
+    void check_codes()
+    {
+        for (std::size_t i = 0; i <= run_.top; ++i) {
+            const Acceptance& back = run_.encoded[i];
+            if (back == point(static_cast<double>(i))) continue;
+            const double value = run_.reals[i];
+            Diagnostic diagnostic{
+                .code = Code::decode_not_inverse,
+                .message = fmt::format("code {} of `{}` does not come back", i, name_),
+                .primary = {field_.span,
+                            back.low == back.high
+                                ? fmt::format("it is read as {}, which is stored as code {}",
+                                              number(value), number(back.low))
+                                : fmt::format("it is read as {}, which a device may store as any "
+                                              "code from {} to {}",
+                                              number(value), number(back.low), number(back.high))},
+                .secondary = declared_labels()};
+            if (i < run_.bottom)
+                diagnostic.notes.push_back(
+                    fmt::format("the low end, {}, is stored as code {}: the codes below are never "
+                                "written",
+                                number(field_.range.low), run_.bottom));
+            diagnostics_.report(std::move(diagnostic));
+            return;
+        }
+    }
+
+private:
+    static std::string range_text(double low, double high)
+    {
+        return fmt::format("[{}, {}]", number(low), number(high));
+    }
+
+    /// `d.r and d.g`
+    std::string place() const
+    {
+        std::string result;
+        for (const ir::Slot& slot : field_.slots)
+            result +=
+                (result.empty() ? "" : " and ") + gbuffer_.name_of(gbuffer_.channels[slot.channel]);
+        return result;
+    }
+
+    /// Where a declared code says what it does.
+    std::vector<Label> declared_labels() const
+    {
+        if (field_.code.kind != ir::Code::Kind::declared) return {};
+        return {{module_[field_.code.decode].span, "the code is declared here"}};
+    }
+
+    void report_inexact(const Kept& kept, const std::vector<double>& all)
+    {
+        const std::size_t code = run_.code_of(kept.value);
+        const Acceptance read = run_.stored_and_read(kept.value);
+        const double nearest = run_.reals[code];
+        Diagnostic diagnostic{.code = Code::value_inexact, .message = {}, .primary = {}};
+        std::string what;
+        if (kept.value < field_.range.low || kept.value > field_.range.high)
+            what = fmt::format("{} is not in {}, and comes back as {}", number(kept.value),
+                               describe(field_.range), number(nearest));
+        else if (read.low == read.high)
+            what = fmt::format("{} is stored as code {} and comes back as {}",
+                               number_beside(kept.value, nearest), code,
+                               number_beside(nearest, kept.value));
+        else
+            what =
+                fmt::format("{} is stored as code {} and may come back as anything from {} to {}",
+                            number(kept.value), code, number_beside(read.low, read.high),
+                            number_beside(read.high, read.low));
+        switch (kept.why) {
+        case Kept::Why::standard:
+            diagnostic.message =
+                fmt::format("the default of `{}` does not survive in {}", name_, place());
+            diagnostic.primary = {field_.span, what};
+            diagnostic.secondary = {
+                {parameter_.span, fmt::format("the default is {}", number(kept.value))}};
+            break;
+        case Kept::Why::required:
+            diagnostic.message =
+                fmt::format("`{} == {}` is required to be exact", name_, number(kept.value));
+            diagnostic.primary = {kept.span, what};
+            diagnostic.secondary = {{field_.span, "it is stored here"}};
+            break;
+        case Kept::Why::neutral:
+            diagnostic.message = fmt::format("the effect `{}` is off at `{} == {}`, and no longer "
+                                             "once that is stored",
+                                             kept.effect, name_, number(kept.value));
+            diagnostic.primary = {field_.span, what};
+            diagnostic.secondary = {{kept.span, "the effect"}};
+            break;
+        }
+        explain(diagnostic, kept.value, read);
+        propose(diagnostic, all);
+        diagnostics_.report(std::move(diagnostic));
+    }
+
+    /// What the codes around a value mean.
+    void explain(Diagnostic& diagnostic, double value, const Acceptance& read) const
+    {
+        if (read.low != read.high) {
+            if (field_.code.kind == ir::Code::Kind::log2)
+                diagnostic.notes.push_back(
+                    "a device may be off by some units in the last place of 2^x, so only a value "
+                    "that lies on a code by itself is exact, and `log2` has none there");
+            return;
+        }
+        const auto above = std::ranges::lower_bound(run_.reals, value);
+        if (above == run_.reals.begin() || above == run_.reals.end()) return;
+        const auto index = above - run_.reals.begin();
+        diagnostic.notes.push_back(fmt::format("the codes around it are {}, which is {}, and {}, "
+                                               "which is {}",
+                                               index - 1, number_beside(*(above - 1), value), index,
+                                               number_beside(*above, value)));
+    }
+
+    void propose(Diagnostic& diagnostic, const std::vector<double>& all) const
+    {
+        const auto outside = std::ranges::find_if(all, [this](double value) {
+            return value < field_.range.low || value > field_.range.high;
+        });
+        if (outside != all.end()) {
+            diagnostic.helps.push_back(
+                fmt::format("let the field carry it: `in {}`",
+                            range_text(std::min(*outside, field_.range.low),
+                                       std::max(*outside, field_.range.high))));
+            return;
+        }
+        if (const auto code = code_for(field_, parameter_, all)) {
+            std::string values;
+            for (const double value : std::set<double>(all.begin(), all.end()))
+                values += (values.empty() ? "" : ", ") + number(value);
+            diagnostic.helps.push_back(
+                fmt::format("`code {}` keeps {}", describe(*code, field_.bits), values));
+            return;
+        }
+        diagnostic.helps.push_back(
+            field_.is_signed
+                ? "a snorm field keeps 0 and its ends, and what lies on its codes: take another "
+                  "range or other bits, or store it as unorm"
+                : "no linear code or power with these bits keeps it: take another range or other "
+                  "bits, or a value that lies on a code");
+    }
+
+    const ir::Module& module_;
+    const ir::Gbuffer& gbuffer_;
+    const ir::Field& field_;
+    const Run& run_;
+    Diagnostics& diagnostics_;
+    const ir::Parameter& parameter_;
+    std::string name_;
+};
+
+/// The condition of an effect, over what its parameters become.
+class Condition {
+public:
+    Condition(const ir::Module& module, const ir::Effect& effect)
+        : module_(module), function_(module[effect.off_when]),
+          tape_(evaluate::compile(module, function_))
+    {
+        for (const evaluate::TapeInput& input : tape_.inputs)
+            defaults_.push_back(
+                parameter_of(input).default_value[static_cast<std::size_t>(input.component)]);
+        for (const ir::ExprId id : function_.graph.ids())
+            if (function_.graph[id].op == ir::Op::literal)
+                literals_.push_back(function_.graph.literal_of(id).value);
+    }
+
+    /// The values of a field's component at which the effect is off while all else is at its
+    /// default: the default and the condition's own numbers are tried.
+    std::vector<double> neutral_values(const ir::Field& field) const
+    {
+        std::vector<double> result;
+        const auto input = find(field);
+        if (!input) return result;
+        std::vector<double> tried{defaults_[*input]};
+        tried.insert(tried.end(), literals_.begin(), literals_.end());
+        const ir::Range& range = module_.parameters[field.parameter].range;
+        for (const double value : tried) {
+            if (value < range.low || value > range.high) continue;
+            std::vector<double> at = defaults_;
+            at[*input] = value;
+            if (is_off(at) && std::ranges::find(result, value) == result.end())
+                result.push_back(value);
+        }
+        return result;
+    }
+
+    /// Whether the effect is off, on any device, where a field's component is read as that.
+    bool stays_off(const ir::Field& field, const Acceptance& read) const
+    {
+        std::vector<Acceptance> at;
+        for (const double value : defaults_) at.push_back(point(value));
+        at[find(field).value()] = read;
+        std::vector<const Acceptance*> columns;
+        for (const Acceptance& value : at) columns.push_back(&value);
+        Acceptance result;
+        const std::array<Acceptance*, 1> outputs{&result};
+        evaluate::run_acceptance(tape_, evaluate::Precision::float32, columns, outputs, 1);
+        return result.low > 0 && !result.undefined;
+    }
+
+private:
+    const ir::Parameter& parameter_of(const evaluate::TapeInput& input) const
+    {
+        return module_.parameters[function_.inputs[input.input].which];
+    }
+
+    std::optional<std::size_t> find(const ir::Field& field) const
+    {
+        for (std::size_t i = 0; i < tape_.inputs.size(); ++i) {
+            const evaluate::TapeInput& input = tape_.inputs[i];
+            if (function_.inputs[input.input].which == field.parameter &&
+                input.component == field.component)
+                return i;
+        }
+        return std::nullopt;
+    }
+
+    bool is_off(const std::vector<double>& at) const
+    {
+        std::vector<const double*> columns;
+        for (const double& value : at) columns.push_back(&value);
+        double result = 0;
+        const std::array<double*, 1> outputs{&result};
+        evaluate::run(tape_, evaluate::Columns<double>{columns}, evaluate::Results<double>{outputs},
+                      1);
+        return result != 0;
+    }
+
+    const ir::Module& module_;
+    const ir::Function& function_;
+    Tape tape_;
+    std::vector<double> defaults_;
+    std::vector<double> literals_;
+};
+
+std::vector<Condition> conditions_of(const ir::Module& module)
+{
+    std::vector<Condition> conditions;
+    for (const ir::Effect& effect : module.effects) conditions.emplace_back(module, effect);
+    return conditions;
+}
+
+/// Fields of a color that differ in nothing but the component have one finding.
+bool is_repeated(const ir::Module& module, const ir::Packing& packing, const ir::Field& field)
+{
+    const auto& defaults = module.parameters[field.parameter].default_value;
+    const auto default_of = [&](const ir::Field& of) {
+        return defaults[static_cast<std::size_t>(of.component)];
+    };
+    return std::any_of(packing.fields.data(), &field, [&](const ir::Field& other) {
+        return other.parameter == field.parameter && other.bits == field.bits &&
+               other.is_signed == field.is_signed && other.range == field.range &&
+               other.code == field.code && default_of(other) == default_of(field);
+    });
+}
+
+/// Functions of the packing get out of the way of others, but who calls them knows them by name.
+void check_names(const ir::Module& module, const ir::Packing& packing, Diagnostics& diagnostics)
+{
+    const auto check = [&](const std::string& wanted, const ir::FunctionId made) {
+        if (module[made].name == wanted) return;
+        const auto other = module.find(wanted);
+        if (!other || module[*other].kind == ir::Function::Kind::storage) return;
+        diagnostics.report(
+            {.code = Code::duplicate_name,
+             .message = fmt::format("`{}` is what the packing calls a function of its own", wanted),
+             .primary = {module[*other].span, ""},
+             .secondary = {{module[made].span, "for what is stored here"}},
+             .helps = {"give it another name"}});
+    };
+    for (const ir::Field& field : packing.fields) {
+        check("encode_" + ir::field_name(module, field), field.encode);
+        check("decode_" + ir::field_name(module, field), field.decode);
+    }
+    for (const auto& parameter : packing.parameters)
+        check("unpack_" + module.parameters[parameter.parameter].name, parameter.unpack);
+}
+
+}  // namespace
+
+void place_anchors(const ir::Module& module, ir::Packing& packing)
+{
+    const std::vector<Condition> conditions = conditions_of(module);
+    for (ir::Field& field : packing.fields) {
+        field.anchors.clear();
+        const bool declared = field.code.kind == ir::Code::Kind::declared;
+        std::vector<double> values;
+        if (declared) values = ir::kept_values(module, packing, field);
+        for (const Condition& condition : conditions)
+            for (const double value : condition.neutral_values(field)) values.push_back(value);
+        std::optional<Tape> encode;
+        if (declared) encode = evaluate::compile(module, module[field.code.encode]);
+        std::vector<ir::Anchor> anchors;
+        for (const double value : values) {
+            if (value < field.range.low || value > field.range.high) continue;
+            std::optional<int> code;
+            if (encode) {
+                // The double arithmetic of a code loses far less than this.
+                const double place = run_one(*encode, value) * field.last_code();
+                if (std::abs(place - std::round(place)) < 0x1p-24)
+                    code = static_cast<int>(std::round(place));
+            } else {
+                code = ir::code_of(field, value);
+            }
+            if (code && std::ranges::find(anchors, value, &ir::Anchor::value) == anchors.end())
+                anchors.push_back({*code, value});
+        }
+        field.anchors = std::move(anchors);
+    }
+}
+
+bool check_values(const ir::Module& module, const ir::Packing& packing, const ir::Gbuffer& gbuffer,
+                  Diagnostics& diagnostics)
+{
+    const int errors = diagnostics.error_count();
+    check_names(module, packing, diagnostics);
+    const std::vector<Condition> conditions = conditions_of(module);
+    for (const ir::Field& field : packing.fields) {
+        if (is_repeated(module, packing, field)) continue;
+        const Run run{module, field};
+        FieldCheck check{module, gbuffer, field, run, diagnostics};
+        std::vector<Kept> kept{{check.default_value(), Kept::Why::standard, {}, {}}};
+        for (const ir::ExactRequirement& required : packing.exact)
+            if (required.parameter == field.parameter)
+                kept.push_back({required.value, Kept::Why::required, required.span, {}});
+        for (std::size_t i = 0; i < conditions.size(); ++i)
+            for (const double value : conditions[i].neutral_values(field))
+                if (!conditions[i].stays_off(field, run.stored_and_read(value)))
+                    kept.push_back({value, Kept::Why::neutral, module.effects[i].span,
+                                    module.effects[i].name});
+        check.check_kept(kept);
+        check.check_ends();
+        if (check.check_rising()) check.check_codes();
+    }
+    return diagnostics.error_count() == errors;
+}
+
+}  // namespace lobe::check

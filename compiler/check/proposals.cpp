@@ -1,0 +1,86 @@
+#include "check/proposals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lobe::check {
+namespace {
+
+using Kind = ir::Code::Kind;
+
+bool keeps(const ir::Field& field, const std::vector<double>& values)
+{
+    return std::ranges::all_of(
+               values, [&](double value) { return ir::code_of(field, value).has_value(); }) &&
+           ir::position(field, field.range.high) <= field.last_code() + 0.5;
+}
+
+/// Where the pivot may go down to: a part of the greatest one.
+std::optional<ir::Code> with_pivot(ir::Field field, int greatest, double part,
+                                   const std::vector<double>& values)
+{
+    const int least = std::max(1, static_cast<int>(std::ceil(greatest * part)));
+    for (int pivot = greatest; pivot >= least; --pivot) {
+        field.code.pivot = pivot;
+        if (keeps(field, values)) return field.code;
+    }
+    return std::nullopt;
+}
+
+std::optional<ir::Code> linear(ir::Field field, double part, const std::vector<double>& values)
+{
+    field.code = {};
+    auto code = with_pivot(field, field.last_code(), part, values);
+    if (code && code->pivot == field.last_code()) code->pivot = 0;
+    return code;
+}
+
+std::optional<ir::Code> power(ir::Field field, int exponent, const std::vector<double>& values)
+{
+    field.code = {};
+    field.code.kind = Kind::power;
+    field.code.name = "power";
+    field.code.exponent = exponent;
+    const auto pivot = reaching_pivot(field);
+    return pivot ? with_pivot(field, *pivot, 0.75, values) : std::nullopt;
+}
+
+std::optional<ir::Code> any_power(const ir::Field& field, const std::vector<double>& values)
+{
+    if (field.code.kind == Kind::power)
+        if (auto code = power(field, field.code.exponent, values)) return code;
+    for (const int exponent : {8, 4, 2, 16, 3, 6})
+        if (auto code = power(field, exponent, values)) return code;
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<int> reaching_pivot(const ir::Field& field)
+{
+    ir::Field one = field;
+    one.code.pivot = 1;
+    // The position of the high end is in proportion to the pivot.
+    const double pivot = std::floor((field.last_code() + 0.5) / ir::position(one, one.range.high));
+    if (!(pivot >= 1)) return std::nullopt;
+    return static_cast<int>(std::min<double>(pivot, field.last_code()));
+}
+
+std::optional<ir::Code> code_for(const ir::Field& field, const ir::Parameter& parameter,
+                                 const std::vector<double>& values)
+{
+    const bool has_powers =
+        parameter.quantity == ir::Quantity::number || parameter.quantity == ir::Quantity::color;
+    if (field.is_signed) return std::nullopt;
+    if (!has_powers) return linear(field, 0.5, values);
+    const bool curved = field.code.kind == Kind::power || field.code.kind == Kind::log2;
+    if (curved)
+        if (auto code = any_power(field, values)) return code;
+    // A quarter of the codes is worth an easy decode; more is not.
+    if (auto code = linear(field, 0.75, values)) return code;
+    if (auto code = any_power(field, values)) return code;
+    return linear(field, 0.5, values);
+}
+
+}  // namespace lobe::check
