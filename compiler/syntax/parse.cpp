@@ -306,7 +306,7 @@ void Parser::fail_unclosed(const Token& open, std::string_view what)
 
 Identifier Parser::expect_identifier(std::string_view what)
 {
-    if (!at(TokenKind::identifier) || at_item()) {
+    if (!at(TokenKind::identifier) || at_item() || at_block_line()) {
         fail_expected(what);
         return {"", span(current())};
     }
@@ -390,12 +390,12 @@ std::vector<Comment> Parser::take_trailing()
     return result;
 }
 
-void Parser::report_dangling(const Comment& comment)
+void Parser::report_dangling(const Comment& comment, std::string label)
 {
     Diagnostic result;
     result.code = Code::dangling_doc;
     result.message = "this doc comment documents nothing";
-    result.primary = {comment.span, "no declaration follows on the next line"};
+    result.primary = {comment.span, std::move(label)};
     result.helps.emplace_back(
         "a doc comment stands on its own lines, before what it documents; other comments start "
         "with `//`");

@@ -283,7 +283,7 @@ ExpressionId Parser::parse_postfix()
 ExpressionId Parser::parse_primary()
 {
     const Token token = current();
-    if (at_item()) {
+    if (at_item() || at_block_line()) {
         fail_expected("an expression");
         return poison();
     }

@@ -50,7 +50,7 @@ GbufferItem Parser::parse_gbuffer(Item& item)
     take_interior(item.comments);
 
     while (at_line(gbuffer_words())) {
-        const LineStart start = open_line();
+        const LineStart start = open_line(gbuffer_words());
         const Span first = span(current());
         const std::string word = line_word(gbuffer_words());
         if (word == "setting") {
@@ -85,8 +85,8 @@ SettingItem Parser::parse_setting(LineStart start)
     result.label = parse_string("what the engine calls it, in double quotes");
     expect(TokenKind::colon, "`:` and the values in their order");
     result.values = parse_names("the name of a value");
-    expect(TokenKind::assign, "`,`, or `=` and the value that the engine has by itself");
-    result.default_value = expect_identifier("the value that the engine has by itself");
+    expect(TokenKind::assign, "`,` or `=` and the default value");
+    result.default_value = expect_identifier("the default value");
     close_line(result, std::move(start));
     return result;
 }
@@ -101,7 +101,7 @@ TargetClause Parser::parse_target(LineStart start)
     if (expect(TokenKind::left_brace, "`{` and the channels of the target")) {
         take_interior(start.comments);
         while (at_line(target_words())) {
-            const LineStart inner = open_line();
+            const LineStart inner = open_line(target_words());
             const Span first = span(current());
             const std::string word = line_word(target_words());
             if (word == "channel") {
@@ -132,7 +132,7 @@ ChannelClause Parser::parse_channel(LineStart start)
     if (accept(TokenKind::left_brace)) {
         take_interior(start.comments);
         while (at_line(channel_words())) {
-            const LineStart inner = open_line();
+            const LineStart inner = open_line(channel_words());
             const std::string word = line_word(channel_words());
             if (!failed_) result.facts.push_back(parse_fact(word, inner));
             if (failed_) recover_line(channel_words(), inner);
@@ -167,10 +167,7 @@ FactClause Parser::parse_fact(const std::string& word, LineStart start)
         result.kind = FactClause::Kind::holds;
         result.name = expect_identifier("a name for the content");
         result.text = parse_string("what it holds, in double quotes");
-        if (at_word("lent")) {
-            advance();
-            result.lent = true;
-        }
+        if (at_near_word("lent")) result.lent = expect_word("lent", "`lent` or `when`");
         result.condition = parse_condition();
     } else {
         const bool also = word == "also";
@@ -186,9 +183,7 @@ FactClause Parser::parse_fact(const std::string& word, LineStart start)
 /// when = "when" expression
 ExpressionId Parser::parse_condition()
 {
-    const bool misspelt = at(TokenKind::identifier) && !current().first_on_line &&
-                          nearest(text(current()), {"when"}).has_value();
-    if (!at_word("when") && !misspelt) return {};
+    if (!at_near_word("when")) return {};
     expect_word("when", "`when` and a condition");
     const ExpressionId result = parse_expression();
     refuse_assign();

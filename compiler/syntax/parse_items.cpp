@@ -62,6 +62,7 @@ void Parser::parse_module()
 void Parser::parse_item()
 {
     const std::size_t start = position_;
+    block_ = nullptr;
     Item item;
     item.comments = take_comments();
     item.blank_lines_before = current().blank_before ? 1 : 0;

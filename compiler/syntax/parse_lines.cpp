@@ -47,8 +47,19 @@ bool Parser::starts_line(const LineWords& words) const
            nearest(word, words.own).has_value();
 }
 
-Parser::LineStart Parser::open_line()
+/// Whether a line of the block begins here, where something is missing from the one before it.
+bool Parser::at_block_line() const
 {
+    if (block_ == nullptr || !at(TokenKind::identifier) || !current().first_on_line) return false;
+    const Token& next = ahead(1);
+    const bool beside = next.kind == TokenKind::identifier || next.kind == TokenKind::string;
+    return beside && !next.first_on_line &&
+           (contains(block_->own, text(current())) || at_outer_line(*block_));
+}
+
+Parser::LineStart Parser::open_line(const LineWords& words)
+{
+    block_ = &words;
     LineStart start;
     start.position = position_;
     start.comments = take_comments();
@@ -84,12 +95,11 @@ std::string Parser::expect_one_of(const std::vector<std::string>& words, std::st
 /// The word that a line starts with.
 std::string Parser::line_word(const LineWords& words)
 {
-    const bool known = at(TokenKind::identifier) &&
-                       (contains(words.own, text(current())) ||
-                        (current().first_on_line && nearest(text(current()), words.own)));
+    const bool begins = current().first_on_line || previous().kind == TokenKind::left_brace;
+    const std::string_view word = at(TokenKind::identifier) ? text(current()) : "";
+    const bool misspelt = begins && !contains(words.outer, word) && nearest(word, words.own);
+    const bool known = contains(words.own, word) || misspelt;
     if (known) return expect_one_of(words.own, words.expected);
-    const bool begins =
-        current().first_on_line || previous().kind == TokenKind::left_brace || failed_;
     Diagnostic result;
     result.code = Code::unexpected_token;
     result.message =
@@ -100,11 +110,19 @@ std::string Parser::line_word(const LineWords& words)
     return {};
 }
 
+/// Whether the word goes on with the line, as it is or misspelt.
+bool Parser::at_near_word(std::string_view word) const
+{
+    const bool misspelt = at(TokenKind::identifier) && !current().first_on_line &&
+                          nearest(text(current()), {std::string{word}}).has_value();
+    return at_word(word) || misspelt;
+}
+
 /// For lines that stand for themselves: what they say is not documented.
 void Parser::refuse_docs(const LineStart& start)
 {
     for (const Comment& comment : start.comments)
-        if (comment.doc) report_dangling(comment);
+        if (comment.doc) report_dangling(comment, "the line below it has no documentation");
 }
 
 /// Skips to the next line of the block, or to what ends it. Comments inside what is skipped go.

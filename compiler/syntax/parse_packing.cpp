@@ -62,7 +62,7 @@ void Parser::parse_code_lines(CodeItem& code, Item& item)
     bool broken = false;
     Span decode_span;
     while (at_line(code_words())) {
-        LineStart start = open_line();
+        LineStart start = open_line(code_words());
         refuse_docs(start);
         const Span first = span(current());
         const std::string word = line_word(code_words());
@@ -104,7 +104,7 @@ void Parser::parse_code_lines(CodeItem& code, Item& item)
             code.encode.valid() ? "this code has no `decode`" : "this code has no `encode`";
         missing.primary = {span(current()), "expected it before this"};
         missing.helps.emplace_back(
-            "`encode = …` says what is stored, `decode(u) = …` what that means");
+            "`encode = ...` says what is stored, `decode(u) = ...` what that means");
         report(std::move(missing));
     }
     close_block(open, code_words(), code.decode.valid() ? code.decode_comments : item.comments);
@@ -124,7 +124,7 @@ PackingItem Parser::parse_packing(Item& item)
     take_interior(item.comments);
 
     while (at_line(packing_words())) {
-        const LineStart start = open_line();
+        const LineStart start = open_line(packing_words());
         const TokenKind next = ahead(1).kind;
         const bool field = at(TokenKind::identifier) &&
                            (next == TokenKind::dot || next == TokenKind::left_bracket ||
@@ -292,7 +292,7 @@ EngineItem Parser::parse_engine(Item& item)
     take_interior(item.comments);
 
     while (at_line(engine_words())) {
-        const LineStart start = open_line();
+        const LineStart start = open_line(engine_words());
         const std::string word = line_word(engine_words());
         if (!failed_) result.lines.push_back(parse_engine_line(word, start));
         if (failed_) recover_line(engine_words(), start);

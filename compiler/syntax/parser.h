@@ -72,7 +72,8 @@ private:
     std::vector<Comment> take_comments();
     void take_interior(std::vector<Comment>& into);
     std::vector<Comment> take_trailing();
-    void report_dangling(const Comment& comment);
+    void report_dangling(const Comment& comment,
+                         std::string label = "no declaration follows on the next line");
 
     // ---- items (parse_items.cpp)
     void parse_module();
@@ -111,10 +112,12 @@ private:
     };
     bool at_line(const LineWords& words) const;
     bool at_outer_line(const LineWords& words) const;
+    bool at_block_line() const;
     bool starts_line(const LineWords& words) const;
-    LineStart open_line();
+    LineStart open_line(const LineWords& words);
     std::string line_word(const LineWords& words);
     std::string expect_one_of(const std::vector<std::string>& words, std::string_view what);
+    bool at_near_word(std::string_view word) const;
     void refuse_docs(const LineStart& start);
     void recover_line(const LineWords& words, const LineStart& start);
     void close_block(const Token& open, const LineWords& words, std::vector<Comment>& last);
@@ -209,7 +212,8 @@ private:
     int errors_ = 0;
     int depth_ = 0;
     bool failed_ = false;
-    bool in_then_ = false;  ///< an `else` here belongs to an `if`
+    bool in_then_ = false;              ///< an `else` here belongs to an `if`
+    const LineWords* block_ = nullptr;  ///< of the block being read
     std::optional<Span> first_not_import_;
     Tree tree_;
     std::vector<std::uint16_t> heights_;  ///< of the tree below each expression
