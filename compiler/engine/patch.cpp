@@ -141,8 +141,8 @@ bool mostly_crlf(const Survey& survey)
 {
     std::ptrdiff_t balance = 0;
     for (const SurveyedFile& file : survey.files)
-        if (file.sound && !file.text.lines.empty())
-            balance += usual_end(file.text) == LineEnd::crlf ? 1 : -1;
+        for (const Line& line : file.text.lines)
+            if (line.end != LineEnd::none) balance += line.end == LineEnd::crlf ? 1 : -1;
     return balance > 0;
 }
 
@@ -165,14 +165,16 @@ std::vector<Change> change_files(const Survey& survey, const SearchedFiles& file
     return changes;
 }
 
-/// The first region finds and names the files that come along.
-void name_new_files(std::vector<std::vector<Placement>>& places,
+/// The first region names the models below and the files that come along.
+void complete_first(std::vector<std::vector<Placement>>& places, const Survey& survey,
                     const std::vector<PlannedFile>& new_files)
 {
     for (std::vector<Placement>& in_file : places)
-        for (Placement& place : in_file)
-            if (place.number == 1)
-                for (const PlannedFile& file : new_files) place.new_files.push_back(file.path);
+        for (Placement& place : in_file) {
+            if (place.number != 1) continue;
+            place.under = survey.earlier;
+            for (const PlannedFile& file : new_files) place.new_files.push_back(file.path);
+        }
 }
 
 Plan finished(Plan plan, std::vector<Change> changes, std::vector<Obstacle> obstacles)
@@ -183,28 +185,24 @@ Plan finished(Plan plan, std::vector<Change> changes, std::vector<Obstacle> obst
     return plan;
 }
 
-/// One obstacle, if others' regions stand on top of the model's.
+/// One obstacle, if other models came on top of this one.
 void refuse_later(const Survey& survey, std::string_view verb, std::vector<Obstacle>& obstacles)
 {
     if (survey.later.empty()) return;
     const std::string others = fmt::format("{}", fmt::join(survey.later, " and "));
-    for (const SurveyedFile& file : survey.files) {
-        std::optional<std::size_t> line;
+    std::optional<Obstacle> first;
+    for (const SurveyedFile& file : survey.files)
         for_each_region(file.regions, [&](const Region& region, int) {
-            if (region.model == survey.model && !region.inside.empty() && !line)
-                line = region.inside.front().begin;
+            if (first || !is_later(survey, region.model)) return;
+            first = {file.path,
+                     static_cast<int>(region.begin) + 1,
+                     region.name,
+                     {},
+                     fmt::format("{} was patched in on top of {}", others, survey.model),
+                     fmt::format("revert {} first, {} {}, then patch {} again", others, verb,
+                                 survey.model, others)};
         });
-        if (!line) continue;
-        obstacles.push_back(
-            {file.path,
-             static_cast<int>(*line) + 1,
-             {},
-             {},
-             fmt::format("regions of {} stand inside of those of {}", others, survey.model),
-             fmt::format("revert {} first, {} {}, then patch {} again", others, verb, survey.model,
-                         others)});
-        return;
-    }
+    obstacles.push_back(*first);
 }
 
 std::vector<std::string> former_new_files(const Survey& survey, const EditList& list,
@@ -238,7 +236,7 @@ Plan plan_patch(const Tree& tree, const EditList& list, const Request& request)
     auto places = place_all(list, files, answers, plan.regions, obstacles);
     check_complete(survey, lacking_files(survey, places), obstacles);
     const auto planned = new_files(list, request, answers, obstacles);
-    name_new_files(places, planned);
+    complete_first(places, survey, planned);
     std::vector<Change> changes = change_files(survey, files, std::move(places), plan.regions);
     if (!changes.empty()) refuse_later(survey, "patch", obstacles);
     for (Change& change :

@@ -19,9 +19,11 @@
 // region names the new files, a line `//+ path` each below its BEGIN, so that a file that the model
 // no longer has goes when the patch is regenerated or reverted.
 //
-// Several models can be in one tree. To each one the regions of those that came before are the
-// engine's own text; where it changes a line of theirs, its region stands inside of that one, and
-// then they come out in the reverse order.
+// Several models can be in one tree, one on top of the other: ids and the lines that count them
+// depend on who came first. The first region names the models below it, a line `//^ model` each.
+// To each model the regions of those below are the engine's own text (where it changes a line of
+// theirs, its region stands inside of that one); a model with others on top can be checked, and is
+// changed or reverted only after they are.
 #pragma once
 
 #include "emit/template.h"

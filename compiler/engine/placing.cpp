@@ -244,14 +244,13 @@ private:
     void add(std::size_t from, std::size_t to, std::string indent,
              std::vector<std::string> new_lines)
     {
-        places_.push_back({edit_.name,
-                           edit_.anchor.pattern,
-                           from,
-                           to,
-                           std::move(indent),
-                           std::move(new_lines),
-                           0,
-                           {}});
+        Placement& place = places_.emplace_back();
+        place.edit = edit_.name;
+        place.anchor = edit_.anchor.pattern;
+        place.from = from;
+        place.to = to;
+        place.indent = std::move(indent);
+        place.lines = std::move(new_lines);
     }
 
     const Edit& edit_;
@@ -329,8 +328,16 @@ Lines with_regions(const Searched& file, std::vector<Placement> places, const st
     std::size_t at = 0;
     for (const Placement& place : places) {
         for (; at < place.from; ++at) result.lines.push_back(lines[at]);
-        NewRegion region{model,           place.edit, place.number, total, place.indent,
-                         place.new_files, {},         place.lines,  usual};
+        NewRegion region;
+        region.model = model;
+        region.name = place.edit;
+        region.number = place.number;
+        region.total = total;
+        region.indent = place.indent;
+        region.under = place.under;
+        region.new_files = place.new_files;
+        region.after = place.lines;
+        region.end = usual;
         for (; at < place.to; ++at) region.before.push_back(lines[at]);
         const std::size_t neighbor = std::min(place.from, lines.size() - 1);
         if (lines[neighbor].end != LineEnd::none) region.end = lines[neighbor].end;

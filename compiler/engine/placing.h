@@ -22,8 +22,9 @@ struct Placement {
     std::size_t to = 0;
     std::string indent;  ///< of its marks
     std::vector<std::string> lines;
-    int number = 0;  ///< among all regions of the model
-    std::vector<std::string> new_files;
+    int number = 0;                      ///< among all regions of the model
+    std::vector<std::string> under;      ///< for the first region: models that were there before
+    std::vector<std::string> new_files;  ///< and files that come along
 };
 
 /// The places of one edit, one per hit, in order; none where its text is empty or it may be absent.

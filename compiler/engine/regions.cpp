@@ -13,6 +13,7 @@ constexpr std::string_view begin_mark = "// BEGIN lobe";
 constexpr std::string_view end_mark = "// END lobe";
 constexpr std::string_view before_mark = "//-";
 constexpr std::string_view new_file_mark = "//+";
+constexpr std::string_view under_mark = "//^";
 
 std::string_view unindented(std::string_view line) { return line.substr(indentation(line).size()); }
 
@@ -69,24 +70,30 @@ std::optional<Open> read_begin(std::string_view words, std::size_t line)
     return open;
 }
 
-/// The `//+` and `//-` lines below a BEGIN; where they stop.
+/// The lines below a BEGIN that start with this mark, from `at` on; each without it.
+std::vector<std::string> read_marked(const Lines& text, std::string_view mark, std::size_t& at)
+{
+    std::vector<std::string> result;
+    for (; at < text.lines.size(); ++at) {
+        const auto rest = behind(text.lines[at].text, mark);
+        if (!rest) break;
+        result.emplace_back(rest->substr(std::min<std::size_t>(1, rest->size())));
+    }
+    return result;
+}
+
+/// What stands below a BEGIN and is no text of the edit; the line where that starts.
 std::size_t read_former(const Lines& text, Region& region)
 {
-    const std::string_view indent = indentation(text.lines[region.begin].text);
     std::size_t at = region.begin + 1;
-    for (; at < text.lines.size(); ++at) {
-        const auto path = behind(text.lines[at].text, new_file_mark);
-        if (!path) break;
-        region.new_files.emplace_back(unindented(*path));
-    }
-    for (; at < text.lines.size(); ++at) {
-        const auto former = behind(text.lines[at].text, before_mark);
-        if (!former) break;
-        region.before.push_back(
-            std::string{indent} +
-            std::string{former->substr(std::min<std::size_t>(1, former->size()))});
-        region.before_ends.push_back(text.lines[at].end);
-    }
+    region.under = read_marked(text, under_mark, at);
+    region.new_files = read_marked(text, new_file_mark, at);
+    const std::size_t first = at;
+    region.before = read_marked(text, before_mark, at);
+    const std::string_view indent = indentation(text.lines[region.begin].text);
+    for (std::string& line : region.before) line.insert(0, indent);
+    for (std::size_t line = first; line < at; ++line)
+        region.before_ends.push_back(text.lines[line].end);
     return at;
 }
 
@@ -234,7 +241,8 @@ std::vector<bool> mark_lines(const Lines& text, const std::vector<Region>& regio
 {
     std::vector<bool> marks(text.lines.size());
     for_each_region(regions, [&](const Region& region, int) {
-        const std::size_t former = region.new_files.size() + region.before.size();
+        const std::size_t former =
+            region.under.size() + region.new_files.size() + region.before.size();
         for (std::size_t line = region.begin; line <= region.begin + former; ++line)
             marks[line] = true;
         marks[region.end] = true;
@@ -245,6 +253,8 @@ std::vector<bool> mark_lines(const Lines& text, const std::vector<Region>& regio
 void write_region(const NewRegion& region, std::vector<Line>& out)
 {
     std::vector<Line> inside;
+    for (const std::string& model : region.under)
+        inside.push_back({fmt::format("{}{} {}", region.indent, under_mark, model), region.end});
     for (const std::string& path : region.new_files)
         inside.push_back({fmt::format("{}{} {}", region.indent, new_file_mark, path), region.end});
     for (const Line& line : region.before) {
@@ -268,7 +278,7 @@ void write_region(const NewRegion& region, std::vector<Line>& out)
 bool looks_like_mark(std::string_view line)
 {
     return behind(line, begin_mark) || behind(line, end_mark) || behind(line, before_mark) ||
-           behind(line, new_file_mark);
+           behind(line, new_file_mark) || behind(line, under_mark);
 }
 
 void LineHash::add(std::string_view line)

@@ -20,6 +20,7 @@ struct Region {
     int total = 0;
     std::size_t begin = 0;
     std::size_t end = 0;
+    std::vector<std::string> under;      ///< models that were there first, of the `//^` lines
     std::vector<std::string> new_files;  ///< of the `//+` lines
     std::vector<std::string> before;     ///< what stood here, of the `//-` lines
     std::vector<LineEnd> before_ends;
@@ -52,7 +53,7 @@ struct Restored {
 Restored without_regions(const Lines& text, const std::vector<Region>& regions,
                          const std::function<bool(const std::string& model)>& goes);
 
-/// Which lines only say what a region is: BEGIN, END, `//-`, `//+`, of all regions.
+/// Which lines only say what a region is: BEGIN, END and the lines below BEGIN, of all regions.
 std::vector<bool> mark_lines(const Lines& text, const std::vector<Region>& regions);
 
 /// A region to write.
@@ -62,7 +63,8 @@ struct NewRegion {
     int number = 0;
     int total = 0;
     std::string indent;                  ///< of the marks
-    std::vector<std::string> new_files;  ///< to be named in it
+    std::vector<std::string> under;      ///< models to be named in it
+    std::vector<std::string> new_files;  ///< files to be named in it
     std::vector<Line> before;            ///< what it takes the place of; may be empty
     std::vector<std::string> after;
     LineEnd end = LineEnd::lf;  ///< of lines that were not there before

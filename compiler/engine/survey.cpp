@@ -45,14 +45,19 @@ void read_file(SurveyedFile& file, std::vector<Obstacle>& obstacles)
     file.regions = std::move(found.regions);
 }
 
-/// Adds the models whose regions are inside of those of models that are known; true if any.
+/// Adds the models that came after those that are known, because their regions say so or are
+/// inside of theirs; true if any.
 bool add_later(const std::vector<Region>& regions, bool inside, const std::string& model,
                std::vector<std::string>& later)
 {
     bool any = false;
     for (const Region& region : regions) {
         const bool known = region.model == model || contains(later, region.model);
-        if (inside && !known) {
+        const bool on_top =
+            inside || std::ranges::any_of(region.under, [&](const std::string& other) {
+                return other == model || contains(later, other);
+            });
+        if (on_top && !known) {
             later.push_back(region.model);
             any = true;
         }
@@ -87,6 +92,14 @@ Survey survey_tree(const Tree& tree, const EditList& list, const std::string& mo
         for (const SurveyedFile& file : survey.files)
             more |= add_later(file.regions, false, model, survey.later);
     }
+    for (const SurveyedFile& file : survey.files)
+        for_each_region(file.regions, [&](const Region& region, int) {
+            const std::string& other = region.model;
+            if (other != model && !is_later(survey, other) && !contains(survey.earlier, other))
+                survey.earlier.push_back(other);
+        });
+    std::ranges::sort(survey.earlier);
+    std::ranges::sort(survey.later);
     return survey;
 }
 

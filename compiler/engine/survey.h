@@ -21,10 +21,11 @@ struct SurveyedFile {
 };
 
 struct Survey {
-    std::vector<SurveyedFile> files;  ///< as in the list
-    std::string model;                ///< whose patch this is about
-    std::vector<std::string> later;   ///< models with regions inside of the model's, or of theirs
-    int regions = 0;                  ///< of the model
+    std::vector<SurveyedFile> files;   ///< as in the list
+    std::string model;                 ///< whose patch this is about
+    std::vector<std::string> earlier;  ///< other models, whose regions are the engine's own text
+    std::vector<std::string> later;    ///< models that came on top of this one, or of those
+    int regions = 0;                   ///< of the model
 };
 
 /// Reads every file of the list.
