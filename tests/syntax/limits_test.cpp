@@ -71,6 +71,70 @@ TEST_CASE("the highest tree can be formatted")
     CHECK(format(again) == text);
 }
 
+TEST_CASE("expressions in blocks have the same bounds")
+{
+    const auto lines = [](const std::string& value) {
+        return std::vector<std::string>{
+            "gbuffer g { target t \"T\" { exists when " + value + " } }",
+            "gbuffer g { target t \"T\" { exists when a else " + value + " } }",
+            "gbuffer g { pin p \"P\" in [0, " + value + "] = 1 }",
+            "gbuffer g { pin p \"P\" = " + value + " }",
+            "code c(x: unit) { encode = " + value + " decode(u) = u }",
+            "packing m on g { d.r = a : unorm 8 code power(" + value + ") }",
+            "packing m on g { require exact a == " + value + " }",
+            "engine g for m { color (0, 0, " + value + ") }"};
+    };
+    const auto codes_of = [](const std::string& item) {
+        return codes(parsed("module m\n" + item + "\nterm u() = 1\n").diagnostics);
+    };
+    for (const std::string& item : lines(repeat("(", 255) + "1" + repeat(")", 255)))
+        CHECK(codes_of(item) == "");
+    for (const std::string& item : lines(repeat("(", 256) + "1" + repeat(")", 256)))
+        CHECK(codes_of(item) == "E0203");
+    for (const std::string& item : lines("1" + repeat(" + 1", 1023))) CHECK(codes_of(item) == "");
+    for (const std::string& item : lines("1" + repeat(" + 1", 1024)))
+        CHECK(codes_of(item) == "E0203");
+    // Unclosed parentheses take the braces behind them along.
+    for (const std::string& item : lines(repeat("f(", 100'000))) CHECK(codes_of(item) == "E0203");
+}
+
+TEST_CASE("the highest trees in blocks can be formatted")
+{
+    const std::string value = "1" + repeat(" + a * 2", 1022);
+    auto result = parsed("module m\ngbuffer g {\n  target t \"T\" {\n    exists when " + value +
+                         " == b else " + value + "\n  }\n  pin p \"P\" = " + value +
+                         "\n}\npacking m on g {\n  d.r = a : unorm 8 in [0, " + value +
+                         "]\n  require exact a == " + value + "\n}\n");
+    REQUIRE(codes(result.diagnostics) == "E0203");  // a comparison on top is one level too many
+    result = parsed("module m\ngbuffer g {\n  target t \"T\" {\n    exists when " + value +
+                    " else " + value + "\n  }\n  pin p \"P\" = " + value +
+                    "\n}\npacking m on g {\n  d.r = a : unorm 8 in [0, " + value +
+                    "]\n  require exact a == " + value + "\n}\n");
+    REQUIRE(codes(result.diagnostics) == "");
+    const std::string text = format(result.tree);
+    const auto again = parsed(text);
+    CHECK(codes(again.diagnostics) == "");
+    CHECK(format(again.tree) == text);
+}
+
+TEST_CASE("blocks may have as many lines as a file holds")
+{
+    constexpr std::size_t count = 50'000;
+    for (const std::string& text :
+         {"gbuffer g {\n" + repeat("setting s \"S\" : a, b = a\n", count) + "}",
+          "gbuffer g {\ntarget t \"T\" {\n" + repeat("channel r \"R\" { field \"f\" }\n", count) +
+              "}\n}",
+          "gbuffer g {\n" + repeat("pin p \"P\" in [0, 1] = 1\n", count) + "}",
+          "packing m on g {\n" + repeat("d.r[0..3] = a : unorm 4 code power(8)\n", count) + "}",
+          "packing m on g {\nwithout a" + repeat(", a", count) + "\n}",
+          "engine g for m {\n" + repeat("pin p = a \"A\"\n", count) + "}"}) {
+        const auto result = parsed("module m\n" + text + "\n");
+        REQUIRE(codes(result.diagnostics) == "");
+        const std::string canonical = format(result.tree);
+        CHECK(format(parsed(canonical).tree) == canonical);
+    }
+}
+
 TEST_CASE("a file is at most 8 MiB")
 {
     const std::size_t limit = std::size_t{8} << 20;
@@ -115,6 +179,22 @@ TEST_CASE("a file declares something")
     CHECK(message("module m\n") == "E0004 this module declares nothing");
 }
 
+TEST_CASE("blocks of broken lines end with few messages")
+{
+    for (const char* head : {"gbuffer g {\n", "gbuffer g {\ntarget t \"T\" {\n",
+                             "gbuffer g {\ntarget t \"T\" {\nchannel c \"C\" {\n",
+                             "packing m on g {\n", "engine g for m {\n", "code c(x: unit) {\n"})
+        for (const char* line :
+             {"(", "{", "chanel ", "chanel c\n", "channel c {\n", "target t \"T\" {\n", "d.r\n",
+              "d.r = a\n", "require exact\n", "reqire\n", "node \"N\" { a\n", "color (\n",
+              "encode =\n", "exists when\n", "/// doc\nformat unorm 8\n", "@\n", "a b c d\n"}) {
+            CAPTURE(head, line);
+            const auto result = parsed(std::string{"module m\n"} + head + repeat(line, 20'000));
+            CHECK(result.diagnostics.error_count() >= 1);
+            CHECK(result.diagnostics.error_count() <= 20);
+        }
+}
+
 TEST_CASE("large files of every kind of token end with few messages")
 {
     for (const char* piece : {"(",
@@ -135,7 +215,13 @@ TEST_CASE("large files of every kind of token end with few messages")
                               "let ",
                               "else ",
                               "\ntem a()",
-                              "\npacking a {",
+                              "\npacking a on b {",
+                              "\ngbuffer a {",
+                              "\ngbuffer a { target t \"T\" { channel c \"C\" {",
+                              "\ncode c(x: unit) {",
+                              "\nengine a for b { node \"n\" {",
+                              "..",
+                              "%",
                               "a = \n",
                               ",",
                               "import a {",

@@ -41,10 +41,12 @@ std::vector<std::string> seeds()
 void damage(std::string& text, std::mt19937& random)
 {
     static const std::vector<std::string> pieces{
-        "(",       ")",      "{",  "}",    "[",    "]",     ",",    ":",    "=",
-        "^",       "-",      "/",  "<",    "else", "then ", "if ",  "let ", "\nterm ",
-        "\nform ", "\"",     "//", "///",  "\n",   " ",     "1",    ".5",   "a",
-        "\xC3",    "\u2212", "\r", "\x01", "in",   "not ",  " and "};
+        "(",      ")",          "{",        "}",          "[",       "]",     ",",
+        ":",      "=",          "^",        "-",          "/",       "<",     "else",
+        "then ",  "if ",        "let ",     "\nterm ",    "\nform ", "\"",    "//",
+        "///",    "\n",         " ",        "1",          ".5",      "a",     "\xC3",
+        "\u2212", "\r",         "\x01",     "in",         "not ",    " and ", "..",
+        "%",      "\nchannel ", "\nfield ", "\nrequire ", " when ",  "code "};
     const auto below = [&](std::size_t bound) {
         return std::uniform_int_distribution<std::size_t>{0, bound}(random);
     };
