@@ -1,5 +1,6 @@
 #include "cli/program.h"
 
+#include "analyze/radiance.h"
 #include "cli/files.h"
 
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ std::optional<std::vector<std::string>> expand_inputs(const Terminal& terminal,
     return files;
 }
 
-Program load(const Terminal& terminal, const std::vector<std::string>& inputs)
+Program read_and_check(const Terminal& terminal, const std::vector<std::string>& inputs)
 {
     Program program;
     const auto files = expand_inputs(terminal, inputs);
@@ -61,6 +62,37 @@ Program load(const Terminal& terminal, const std::vector<std::string>& inputs)
         if (program.diagnostics.error_count() > errors && program.status == success)
             program.status = findings;
     }
+    return program;
+}
+
+namespace {
+
+/// True when every packing of a checked module keeps what it asks of radiance.
+bool keeps_radiance(const ir::Module& checked, Diagnostics& diagnostics)
+{
+    const auto asks = [](const ir::Packing& packing) { return packing.radiance_limit.has_value(); };
+    if (std::ranges::none_of(checked.packings, asks)) return true;
+    const ir::Module module = middle(checked);
+    const int errors = diagnostics.error_count();
+    for (const ir::Packing& packing : module.packings) {
+        if (!asks(packing)) continue;
+        const Diagnostics found =
+            analyze::unmet(module, packing, analyze::packing_errors(module, packing));
+        for (const Diagnostic& diagnostic : found.all()) diagnostics.report(diagnostic);
+    }
+    return diagnostics.error_count() == errors;
+}
+
+}  // namespace
+
+Program load(const Terminal& terminal, const std::vector<std::string>& inputs)
+{
+    Program program = read_and_check(terminal, inputs);
+    std::erase_if(program.modules, [&program](const ir::Module& module) {
+        if (keeps_radiance(module, program.diagnostics)) return false;
+        if (program.status == success) program.status = findings;
+        return true;
+    });
     return program;
 }
 

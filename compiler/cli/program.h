@@ -24,6 +24,10 @@ struct Program {
 
 /// Reads and checks the inputs. Diagnostics are collected, not yet printed; a file that cannot be
 /// read is E0001 and makes the status `broken`.
+Program read_and_check(const Terminal& terminal, const std::vector<std::string>& inputs);
+
+/// What `read_and_check` does, and then measures what packings ask of radiance: a module that does
+/// not keep it is refused like any other.
 Program load(const Terminal& terminal, const std::vector<std::string>& inputs);
 
 /// Every module for every target, in this order. Each module is compiled on a thread of its own.
