@@ -2,8 +2,11 @@
 // over vectors that it must compute there.
 //
 // That function differs from a model's output in what the engine prescribes: NoV is |n.v| + 1e-5,
-// NoH and VoH come from the engine's context.
+// NoH and VoH come from the engine's context. Where the model is packed there is a second check of
+// every output: parameters then come out of the channels, by the packing's own file, and must be
+// what its unpack functions say.
 #include "emit/frame.h"
+#include "emit/packing.h"
 #include "emit/unreal.h"
 
 #include <fmt/format.h>
@@ -56,21 +59,69 @@ private:
     ir::Frame frame_;
 };
 
-ir::Function under_point_light(const ir::Module& module, const ir::ModelOutput& output,
-                               std::string name)
-{
-    const ir::Function& callee = module[output.function];
-    ir::Function function = callee;
-    function.name = std::move(name);
-    function.graph = {};
-    function.inputs.clear();
+/// A packing that fills the parameters of a model, as the engine's shaders reach it.
+struct Packed {
+    const ir::Packing* packing = nullptr;
+    GbufferAccess access;
+};
 
-    const auto add_input = [&function](const ir::Input& input) {
-        function.inputs.push_back(input);
-        return function.graph.input(static_cast<std::uint32_t>(function.inputs.size() - 1),
-                                    input.type);
-    };
-    const auto add_vector = [&](Field field) {
+/// The first one of a model, which has the macro that the model's file looks for.
+std::optional<Packed> packed(const ir::Module& module, const ir::Model& model)
+{
+    for (std::size_t i = 0; i < module.packings.size(); ++i) {
+        const ir::Packing& packing = module.packings[i];
+        if (packing.model.name != model.name || packing.model.module != model.module) continue;
+        if (auto access = gbuffer_access(module, i)) return Packed{&packing, std::move(*access)};
+        return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+/// The function over vectors, under construction.
+class UnderPointLight {
+public:
+    UnderPointLight(const ir::Module& module, const ir::ModelOutput& output, std::string name,
+                    const Packed* packed)
+        : module_(module), output_(output), packed_(packed), function_(module[output.function])
+    {
+        function_.name = std::move(name);
+        function_.graph = {};
+        function_.inputs.clear();
+    }
+
+    ir::Function build()
+    {
+        const ir::Function& callee = module_[output_.function];
+        ir::Frame frame;
+        frame.l = add_vector(Field::l);
+        frame.v = add_vector(Field::v);
+        frame.n = add_vector(Field::n);
+        PointLight light{function_.graph, frame};
+
+        std::vector<ExprId> operands;
+        for (const ir::Input& input : callee.inputs) {
+            if (input.origin == ir::Origin::geometry)
+                operands.push_back(light.field(static_cast<Field>(input.which)));
+            else if (input.origin == ir::Origin::parameter && packed_ != nullptr)
+                operands.push_back(unpacked(input));
+            else
+                operands.push_back(given(input));
+        }
+        function_.result =
+            function_.graph.call(output_.function, callee.type(), operands, callee.span);
+        return std::move(function_);
+    }
+
+private:
+    ExprId add_input(const ir::Input& input)
+    {
+        function_.inputs.push_back(input);
+        return function_.graph.input(static_cast<std::uint32_t>(function_.inputs.size() - 1),
+                                     input.type);
+    }
+
+    ExprId add_vector(Field field)
+    {
         const ir::FieldFacts& known = ir::facts(field);
         return add_input({std::string{known.name},
                           known.type,
@@ -79,29 +130,55 @@ ir::Function under_point_light(const ir::Module& module, const ir::ModelOutput& 
                           ir::Origin::geometry,
                           static_cast<std::uint32_t>(field),
                           {}});
-    };
-    ir::Frame frame;
-    frame.l = add_vector(Field::l);
-    frame.v = add_vector(Field::v);
-    frame.n = add_vector(Field::n);
-    PointLight light{function.graph, frame};
-
-    std::vector<ExprId> operands;
-    for (const ir::Input& input : callee.inputs) {
-        if (input.origin == ir::Origin::geometry) {
-            operands.push_back(light.field(static_cast<Field>(input.which)));
-            continue;
-        }
-        ExprId operand = add_input(input);
-        if (input.origin == ir::Origin::surface &&
-            input.which == static_cast<std::uint32_t>(ir::SurfaceField::roughness))
-            operand = function.graph.apply(Op::maximum,
-                                           {operand, function.graph.literal(least_roughness)});
-        operands.push_back(operand);
     }
-    function.result = function.graph.call(output.function, callee.type(), operands, callee.span);
-    return function;
-}
+
+    ExprId given(const ir::Input& input)
+    {
+        const ExprId value = add_input(input);
+        const bool roughness =
+            input.origin == ir::Origin::surface &&
+            input.which == static_cast<std::uint32_t>(ir::SurfaceField::roughness);
+        if (!roughness) return value;
+        return function_.graph.apply(Op::maximum,
+                                     {value, function_.graph.literal(least_roughness)});
+    }
+
+    /// What the channels hold of a parameter; its default where it is not packed.
+    ExprId unpacked(const ir::Input& input)
+    {
+        ir::Graph& g = function_.graph;
+        for (const auto& parameter : packed_->packing->parameters) {
+            if (parameter.parameter != input.which) continue;
+            std::vector<ExprId> operands;
+            for (std::size_t i = 0; i < parameter.channels.size(); ++i)
+                operands.push_back(
+                    stored(module_[parameter.unpack].inputs[i], parameter.channels[i]));
+            return g.call(parameter.unpack, input.type, operands);
+        }
+        std::vector<ExprId> parts;
+        for (const double part : module_.parameters[input.which].default_value)
+            parts.push_back(g.literal(fmt::format("{}", part)));
+        if (input.type == ir::Type::boolean)
+            return g.apply(Op::not_equal, {parts[0], g.literal("0")});
+        return parts.size() == 1 ? parts[0] : g.construct(input.type, parts);
+    }
+
+    /// What a channel reads: an input, with the index among Packing::channels for its `which`.
+    ExprId stored(const ir::Input& reading, std::size_t channel)
+    {
+        const auto which = static_cast<std::uint32_t>(channel);
+        if (const auto known = function_.find_input(ir::Origin::argument, which))
+            return function_.graph.input(*known, reading.type);
+        ir::Input input = reading;
+        input.which = which;
+        return add_input(input);
+    }
+
+    const ir::Module& module_;
+    const ir::ModelOutput& output_;
+    const Packed* packed_;
+    ir::Function function_;
+};
 
 /// `float3( harness_points[harness_base + 3u], … )`
 std::string read(const Dialect& dialect, ir::Type type, int at)
@@ -115,7 +192,8 @@ std::string read(const Dialect& dialect, ir::Type type, int at)
 }
 
 Harness run_bxdf(const ir::Module& module, const ir::Model& model, const ir::ModelOutput& output,
-                 const ir::Function& entry, const Artifact& artifact, const Dialect& dialect)
+                 const ir::Function& entry, const Artifact& artifact, const Packed* packed,
+                 const Dialect& dialect)
 {
     const std::string stem = model_stem(module, model.name, dialect);
     const ModelInputs inputs = inputs_of(module, model, dialect);
@@ -131,6 +209,8 @@ Harness run_bxdf(const ir::Module& module, const ir::Model& model, const ir::Mod
         } else if (input.origin == ir::Origin::surface) {
             const auto field = static_cast<ir::SurfaceField>(input.which);
             loads.push_back(fmt::format("{} = {};", gbuffer_field(field), value));
+        } else if (packed != nullptr) {
+            loads.push_back(fmt::format("{} = {};", packed->access.fields[input.which], value));
         } else {
             for (const Member& member : inputs.parameters)
                 if (member.input.which == input.which)
@@ -165,6 +245,19 @@ Harness run_bxdf(const ir::Module& module, const ir::Model& model, const ir::Mod
     return result;
 }
 
+/// Two artifacts as one file.
+Artifact joined(Artifact first, const Artifact& second)
+{
+    const auto lines = static_cast<int>(std::ranges::count(first.text, '\n'));
+    first.text += second.text;
+    for (LineOrigin origin : second.origins) {
+        origin.first += lines;
+        origin.last += lines;
+        first.origins.push_back(origin);
+    }
+    return first;
+}
+
 }  // namespace
 
 std::vector<BxdfCheck> bxdf_checks(const ir::Module& module, const Sources& sources)
@@ -176,20 +269,26 @@ std::vector<BxdfCheck> bxdf_checks(const ir::Module& module, const Sources& sour
     for (const ir::Model& model : module.models) {
         const ModelInputs inputs = inputs_of(module, model, language);
         if (!has_bxdf(inputs) || inputs.needs_tangents()) continue;
-        for (const ir::ModelOutput& output : model.outputs) {
-            const auto shares = std::ranges::count(
-                model.outputs, engine_output(output),
-                [](const ir::ModelOutput& other) { return engine_output(other); });
-            if (shares > 1) continue;
-            const std::string name =
-                fmt::format("{}BxDF_{}", language.styled(model_stem(module, model.name, language)),
-                            engine_output(output));
-            BxdfCheck check{module, ir::FunctionId{module.functions.size()}, {}};
-            check.module.functions.push_back(under_point_light(module, output, name));
-            const ir::Function entry = ir::entry_point(check.module, check.function);
-            check.harness = run_bxdf(module, model, output, entry, artifact, language);
-            checks.push_back(std::move(check));
-        }
+        const auto add = [&](const Packed* by, const Artifact& text, std::string_view suffix) {
+            for (const ir::ModelOutput& output : model.outputs) {
+                const auto shares = std::ranges::count(
+                    model.outputs, engine_output(output),
+                    [](const ir::ModelOutput& other) { return engine_output(other); });
+                if (shares > 1) continue;
+                const std::string name = fmt::format(
+                    "{}BxDF_{}{}", language.styled(model_stem(module, model.name, language)),
+                    engine_output(output), suffix);
+                BxdfCheck check{module, ir::FunctionId{module.functions.size()}, {}};
+                check.module.functions.push_back(UnderPointLight{module, output, name, by}.build());
+                const ir::Function entry = ir::entry_point(check.module, check.function);
+                check.harness = run_bxdf(module, model, output, entry, text, by, language);
+                checks.push_back(std::move(check));
+            }
+        };
+        add(nullptr, artifact, "");
+        if (const auto by = packed(module, model))
+            add(&*by, joined(PackingFiles{module, sources, target}.artifact(target), artifact),
+                "_packed");
     }
     return checks;
 }

@@ -69,7 +69,8 @@ struct BxdfCheck {
     ir::FunctionId function;  ///< what the BxDF must compute, over vectors
     Harness harness;          ///< its inputs are those of the function's entry point
 };
-/// Every output of every BxDF of a module. Not those that share a member of the engine's result,
+/// Every output of every BxDF of a module; where the model is packed once more, as the module's and
+/// the packing's file are in the engine: then its parameters come out of the GBuffer. Not those that share a member of the engine's result,
 /// and not those of models with a tangent frame, whose context the stand-in does not define.
 std::vector<BxdfCheck> bxdf_checks(const ir::Module& module, const Sources& sources);
 

@@ -2,6 +2,7 @@
 // model's outputs from the engine's geometry.
 #include "analyze/agreement.h"
 #include "analyze/judgement.h"
+#include "emit/packings.h"
 #include "emit/shipped.h"
 
 #include <catch2/catch.hpp>
@@ -56,6 +57,33 @@ TEST_CASE("every output of every BxDF computes what the model says", "[emit][bxd
         }
     }
     CHECK(checked == 8);
+}
+
+TEST_CASE("the BxDF of a packed model sees what its packing unpacks", "[emit][bxdf][packing]")
+{
+    const Builder b = packed_skin();
+    const auto checks = emit::bxdf_checks(b.module, b.sources);
+    REQUIRE(checks.size() == 2);
+    CHECK(checks[0].module[checks[0].function].name == "SkinBxDF_Diffuse");
+    const emit::BxdfCheck& packed = checks[1];
+    CHECK(packed.module[packed.function].name == "SkinBxDF_Diffuse_packed");
+    // Three vectors, the albedo, six channels.
+    CHECK(packed.harness.inputs == 3 * 3 + 3 + 6);
+    const std::string& text = packed.harness.artifact.text;
+    const analyze::Agreement agreement = run(packed, text);
+    INFO((agreement.example ? agreement.example->inputs : ""));
+    CHECK(agreement.outside == 0);
+    CHECK(agreement.undefined < count / 4);
+
+    // One channel for another, and a macro that the model's file does not see.
+    CHECK(run(packed, replaced(text, "Skin_UnpackGain( GBuffer.CustomData.x )",
+                               "Skin_UnpackGain( GBuffer.CustomData.y )"))
+              .outside > 0);
+    CHECK(
+        run(packed, replaced(text, "#define SKIN_PARAMETERS(", "#define SKIN_PARAMETER(")).outside >
+        0);
+    CHECK(run(packed, replaced(text, "floor( DGCode * 0.0625 )", "floor( DGCode * 0.0624 )"))
+              .outside > 0);
 }
 
 TEST_CASE("a BxDF that is wrong in one place is found", "[emit][bxdf]")
