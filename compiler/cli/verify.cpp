@@ -81,6 +81,8 @@ struct Verify {
         if (!terminal.quiet) {
             fmt::print("{}\n", report::render(report::verification_table(verifications), look));
             fmt::print("{}\n", report::render(report::judge_table(verifications), look));
+            if (const auto trips = report::round_trip_table(verifications); !trips.rows.empty())
+                fmt::print("{}\n", report::render(trips, look));
         }
         if (const std::string found = report::findings(verifications, look); !found.empty())
             fmt::print("{}\n", found);

@@ -75,6 +75,32 @@ ordered_json to_json(const analyze::Row& row, bool with_times)
     return out;
 }
 
+ordered_json to_json(const analyze::Trip& trip)
+{
+    ordered_json out{
+        {"lost", trip.lost}, {"outside", trip.outside}, {"other_bits", trip.other_bits}};
+    if (const auto& lost = trip.example)
+        out["example"] = {{"channel", lost->channel},
+                          {"stored", lost->stored},
+                          {"expected", lost->expected},
+                          {"returned", number(lost->returned)}};
+    return out;
+}
+
+ordered_json to_json(const analyze::RoundTrip& trip)
+{
+    ordered_json out{
+        {"packing", trip.packing},   {"target", trip.target},     {"ok", trip.ok()},
+        {"executed", trip.executed}, {"channels", trip.channels}, {"codes", trip.codes},
+        {"points", trip.points},     {"promised", trip.promised}, {"cpu", to_json(trip.processor)}};
+    if (!trip.failure.empty()) out["failure"] = trip.failure;
+    if (trip.executed) {
+        out["direct"] = to_json(trip.direct);
+        out["optimized"] = to_json(trip.optimized);
+    }
+    return out;
+}
+
 ordered_json to_json(const analyze::Verification& verification, bool with_times)
 {
     ordered_json out{{"module", verification.module}, {"device", verification.device}};
@@ -87,10 +113,14 @@ ordered_json to_json(const analyze::Verification& verification, bool with_times)
     };
     add(verification.judgements);
     for (const analyze::Row& row : verification.rows) add(row.judgements);
+    for (const analyze::RoundTrip& trip : verification.round_trips) add(trip.judgements);
     out["refusals"] = std::move(refusals);
     ordered_json rows = ordered_json::array();
     for (const analyze::Row& row : verification.rows) rows.push_back(to_json(row, with_times));
     out["rows"] = std::move(rows);
+    ordered_json trips = ordered_json::array();
+    for (const analyze::RoundTrip& trip : verification.round_trips) trips.push_back(to_json(trip));
+    out["round_trips"] = std::move(trips);
     if (with_times)
         out["measured"] = {{"seconds", verification.seconds},
                            {"acceptance_seconds", verification.acceptance_seconds},
@@ -125,7 +155,9 @@ std::string to_json(Verifications verifications, bool with_times)
                              {"outside", sum.outside},
                              {"undefined", sum.undefined},
                              {"verdicts", sum.verdicts},
-                             {"refusals", sum.refusals}}},
+                             {"refusals", sum.refusals},
+                             {"round_trips", sum.round_trips},
+                             {"failed_round_trips", sum.failed_round_trips}}},
                            {"judges", std::move(judges)},
                            {"modules", std::move(modules)}};
     // A judge's message may hold bytes that are not UTF-8; they must not stop a report.

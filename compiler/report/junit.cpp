@@ -56,6 +56,28 @@ Case case_of(const analyze::Row& row, const analyze::Verification& verification)
     return out;
 }
 
+Case case_of(const analyze::RoundTrip& trip, const analyze::Verification& verification)
+{
+    Case out;
+    out.name = fmt::format("{} round trip", trip.packing);
+    if (!trip.ok()) {
+        out.failure =
+            !trip.failure.empty()
+                ? trip.failure
+                : fmt::format("{} points lost on the CPU, {} direct, {} after the optimizer",
+                              trip.processor.lost, trip.direct.lost, trip.optimized.lost);
+        for (const analyze::Judgement& judgement : trip.judgements)
+            if (!judgement.accepted)
+                out.failure = fmt::format("{} rejects {}", judgement.judge, judgement.artifact);
+        analyze::Verification one;
+        one.round_trips.push_back(trip);
+        out.details = findings({&one, 1}, {});
+    } else if (!trip.executed) {
+        out.skipped = verification.no_device.empty() ? "only on the CPU" : verification.no_device;
+    }
+    return out;
+}
+
 Case case_of(const std::string& artifact, const std::vector<analyze::Judgement>& judgements)
 {
     Case out;
@@ -106,6 +128,7 @@ std::string to_junit(Verifications verifications, bool with_times)
         };
         for (const analyze::Judgement& judgement : verification.judgements) know(judgement.target);
         for (const analyze::Row& row : verification.rows) know(row.target);
+        for (const analyze::RoundTrip& trip : verification.round_trips) know(trip.target);
         for (const std::string& target : targets) {
             std::vector<Case> cases;
             std::string last;
@@ -116,6 +139,8 @@ std::string to_junit(Verifications verifications, bool with_times)
             }
             for (const analyze::Row& row : verification.rows)
                 if (row.target == target) cases.push_back(case_of(row, verification));
+            for (const analyze::RoundTrip& trip : verification.round_trips)
+                if (trip.target == target) cases.push_back(case_of(trip, verification));
             out += write(verification.module + "." + target, cases, with_times);
         }
     }

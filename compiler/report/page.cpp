@@ -145,6 +145,30 @@ std::vector<Record> judge_records(const JudgeMatrix& matrix)
     return out;
 }
 
+/// The table of round trips: a list of one, or none without packings.
+std::vector<Record> code_records(Verifications verifications)
+{
+    const Table table = round_trip_table(verifications);
+    if (table.rows.empty()) return {};
+    Record section;
+    for (const Column& column : table.columns)
+        section.lists["titles"].push_back(
+            texts({{"text", escaped(column.title)}, {"class", column.numeric ? "n" : ""}}));
+    for (const auto& row : table.rows) {
+        std::vector<Record>& cells = section.lists["rows"].emplace_back().lists["cells"];
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const char* style = row[i].style == Style::good    ? "good"
+                                : row[i].style == Style::bad   ? "bad"
+                                : row[i].style == Style::faint ? "soft"
+                                                               : "";
+            cells.push_back(texts(
+                {{"text", escaped(row[i].text)},
+                 {"class", fmt::format("{}{}", table.columns[i].numeric ? "n " : "", style)}}));
+        }
+    }
+    return {section};
+}
+
 }  // namespace
 
 std::string to_page(Verifications verifications, bool with_times)
@@ -158,8 +182,12 @@ std::string to_page(Verifications verifications, bool with_times)
     Record page = texts({{"title", escaped("Verification of " + names)},
                          {"verdict_class", sum.ok() ? "good" : "bad"}});
     page.texts["verdict"] =
-        !sum.ok() ? fmt::format("{} of {} rows fail, {} texts were refused.",
-                                grouped(sum.failed_rows), grouped(sum.rows), grouped(sum.refusals))
+        !sum.ok() ? fmt::format("{} of {} rows fail, {} texts were refused{}.",
+                                grouped(sum.failed_rows), grouped(sum.rows), grouped(sum.refusals),
+                                sum.failed_round_trips == 0
+                                    ? ""
+                                    : fmt::format(", {} of {} round trips lose codes",
+                                                  sum.failed_round_trips, sum.round_trips))
         : sum.executions > 0
             ? "Every text was accepted, and every defined result lies where the specification "
               "allows it."
@@ -180,6 +208,7 @@ std::string to_page(Verifications verifications, bool with_times)
     for (const std::string& target : matrix.targets)
         targets.push_back(texts({{"name", escaped(target)}}));
     page.lists["judges"] = judge_records(matrix);
+    page.lists["codes"] = code_records(verifications);
     std::vector<Record>& modules = page.lists["modules"];
     for (const analyze::Verification& verification : verifications)
         modules.push_back(module_record(verification));

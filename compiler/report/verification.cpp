@@ -10,6 +10,7 @@ namespace {
 
 using analyze::Agreement;
 using analyze::Judgement;
+using analyze::RoundTrip;
 using analyze::Row;
 using analyze::Verification;
 using analyze::Witness;
@@ -27,6 +28,8 @@ void for_each_judgement(Verifications verifications, const Visit& visit)
         for (const Judgement& judgement : verification.judgements) visit(judgement);
         for (const Row& row : verification.rows)
             for (const Judgement& judgement : row.judgements) visit(judgement);
+        for (const RoundTrip& trip : verification.round_trips)
+            for (const Judgement& judgement : trip.judgements) visit(judgement);
     }
 }
 
@@ -42,6 +45,74 @@ Cell state_of(const Row& row)
     if (!row.ok()) return {"FAIL", Style::bad};
     if (!row.executed) return {"judged", Style::faint};
     return {"ok", Style::good};
+}
+
+Cell state_of(const RoundTrip& trip)
+{
+    if (!trip.ok()) return {"FAIL", Style::bad};
+    if (!trip.executed) return {"on the CPU", Style::faint};
+    return {"ok", Style::good};
+}
+
+/// What the round trips of all modules come to, in one line; empty without packings.
+std::string summary_of_trips(Verifications verifications, const Look& look)
+{
+    std::size_t codes = 0, channels = 0, lost = 0, promised = 0, points = 0;
+    std::vector<std::string> targets;
+    bool executed = true;
+    for (const Verification& verification : verifications) {
+        std::string last;
+        for (const RoundTrip& trip : verification.round_trips) {
+            executed &= trip.executed;
+            lost += trip.processor.lost + trip.direct.lost + trip.optimized.lost;
+            if (std::ranges::find(targets, trip.target) == targets.end())
+                targets.push_back(trip.target);
+            // What the CPU and the contract say is the same for every target.
+            if (trip.packing == last) continue;
+            last = trip.packing;
+            codes += trip.codes;
+            channels += trip.channels;
+            promised += trip.promised;
+            points += trip.points;
+        }
+    }
+    if (points == 0) return {};
+    const std::string where =
+        executed ? fmt::format(" and on the device, {} targets", targets.size()) : "";
+    const std::string outcome =
+        lost == 0 ? styled("none lost", Style::good, look.color)
+                  : styled(grouped(lost) + " points lost", Style::bad, look.color);
+    const std::string contract = promised == points
+                                     ? "no conforming device can lose one"
+                                     : fmt::format("the contract promises {} of {} points",
+                                                   grouped(promised), grouped(points));
+    return fmt::format(
+        "codes     {} codes of {} channels unpacked and packed, on the CPU{}: {}, {}\n",
+        grouped(codes), channels, where, outcome, contract);
+}
+
+/// What is wrong with a round trip, one paragraph per machine.
+std::string findings_of(const RoundTrip& trip, const Look& look)
+{
+    const auto title = [&](std::string_view what) {
+        return fmt::format("{} {}, {}", styled(what, Style::bad, look.color), trip.packing,
+                           trip.target);
+    };
+    std::string out;
+    if (!trip.failure.empty()) out += fmt::format("{}: {}\n", title("not run"), trip.failure);
+    for (const auto& [machine, result] :
+         {std::pair{"the CPU", &trip.processor}, std::pair{"direct", &trip.direct},
+          std::pair{"optimized", &trip.optimized}}) {
+        if (result->ok()) continue;
+        out += fmt::format("{}, {}: {} of {} points came back with another code, {} have a value "
+                           "outside its interval\n",
+                           title("lost"), machine, grouped(result->lost), grouped(trip.points),
+                           grouped(result->outside));
+        if (const auto& lost = result->example)
+            out += fmt::format("      at {}\n      {} came back as {}, not {}\n", lost->stored,
+                               lost->channel, lost->returned, lost->expected);
+    }
+    return out;
 }
 
 std::string witness_text(const Witness& at)
@@ -74,7 +145,7 @@ std::string short_number(double value)
 Totals totals(Verifications verifications)
 {
     Totals out;
-    for (const Verification& verification : verifications)
+    for (const Verification& verification : verifications) {
         for (const Row& row : verification.rows) {
             ++out.rows;
             out.failed_rows += !row.ok();
@@ -82,6 +153,11 @@ Totals totals(Verifications verifications)
             out.outside += row.direct.outside + row.optimized.outside;
             out.undefined += row.direct.undefined + row.optimized.undefined;
         }
+        for (const RoundTrip& trip : verification.round_trips) {
+            ++out.round_trips;
+            out.failed_round_trips += !trip.ok();
+        }
+    }
     for_each_judgement(verifications, [&out](const Judgement& judgement) {
         ++out.verdicts;
         out.refusals += !judgement.accepted;
@@ -163,6 +239,29 @@ Table judge_table(Verifications verifications)
     return table;
 }
 
+Table round_trip_table(Verifications verifications)
+{
+    Table table;
+    table.columns = {{"packing", false},   {"target", false}, {"", false},    {"channels", true},
+                     {"codes", true},      {"points", true},  {"lost", true}, {"outside", true},
+                     {"other bits", true}, {"promised", true}};
+    for (const Verification& verification : verifications)
+        for (const RoundTrip& trip : verification.round_trips) {
+            std::vector<Cell> cells{{trip.packing}, {trip.target}, state_of(trip)};
+            const Style style = trip.ok() ? Style::plain : Style::bad;
+            cells.push_back({grouped(trip.channels)});
+            cells.push_back({grouped(trip.codes)});
+            cells.push_back({grouped(trip.points)});
+            cells.push_back(
+                {grouped(trip.processor.lost + trip.direct.lost + trip.optimized.lost), style});
+            cells.push_back({grouped(trip.direct.outside + trip.optimized.outside), style});
+            cells.push_back({grouped(trip.direct.other_bits + trip.optimized.other_bits)});
+            cells.push_back({grouped(trip.promised)});
+            table.rows.push_back(std::move(cells));
+        }
+    return table;
+}
+
 std::string summary(Verifications verifications, const Look& look, bool with_times)
 {
     const Totals sum = totals(verifications);
@@ -191,6 +290,7 @@ std::string summary(Verifications verifications, const Look& look, bool with_tim
                 : styled(grouped(sum.outside) + " outside their acceptance intervals", Style::bad,
                          look.color),
             grouped(sum.undefined));
+    out += summary_of_trips(verifications, look);
     std::vector<std::string> notes;
     for (const Verification& verification : verifications)
         for (const std::string& note : verification.notes)
@@ -240,6 +340,8 @@ std::string findings(Verifications verifications, const Look& look)
                 if (agreement->example) out += witness_text(*agreement->example);
             }
         }
+    for (const Verification& verification : verifications)
+        for (const RoundTrip& trip : verification.round_trips) out += findings_of(trip, look);
     return out;
 }
 

@@ -25,7 +25,9 @@ struct Totals {
     std::size_t undefined = 0;
     std::size_t verdicts = 0;
     std::size_t refusals = 0;
-    bool ok() const { return failed_rows == 0 && refusals == 0; }
+    std::size_t round_trips = 0;  ///< a packing on a target
+    std::size_t failed_round_trips = 0;
+    bool ok() const { return failed_rows == 0 && refusals == 0 && failed_round_trips == 0; }
 };
 Totals totals(Verifications verifications);
 
@@ -48,6 +50,10 @@ Table verification_table(Verifications verifications);
 
 /// The judges' matrix as a table.
 Table judge_table(Verifications verifications);
+
+/// One row per packing and target: codes, those that were lost, and for how many the contract
+/// allows nothing but the right one. Without packings it has no rows.
+Table round_trip_table(Verifications verifications);
 
 /// What was checked, on what, and the outcome: a few lines for the end of a run.
 std::string summary(Verifications verifications, const Look& look, bool with_times);

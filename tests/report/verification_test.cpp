@@ -75,6 +75,27 @@ analyze::Verification failing()
     return out;
 }
 
+/// Two targets of a packing; of the second, the optimizer loses a code.
+analyze::Verification with_round_trips()
+{
+    analyze::Verification out = sample();
+    analyze::RoundTrip trip;
+    trip.packing = "callisto on ue4";
+    trip.target = "glsl450";
+    trip.channels = 4;
+    trip.codes = 1024;
+    trip.points = 3072;
+    trip.promised = 3072;
+    trip.executed = true;
+    trip.judgements.push_back({"harness of callisto", "glsl450", "glslang", true, {}});
+    out.round_trips.push_back(trip);
+    trip.target = "ue4";
+    trip.optimized = {2, 1, 3, analyze::LostCode{"d.b", "d.r = 1/255, d.b = 37/255", 37, 38.25}};
+    trip.judgements[0].target = "ue4";
+    out.round_trips.push_back(trip);
+    return out;
+}
+
 std::size_t count(const std::string& text, const std::string& part)
 {
     std::size_t found = 0;
@@ -172,6 +193,68 @@ TEST_CASE("the page stands alone and shows every row", "[report]")
     CHECK(page.find("F&lt;x&gt; &amp; &quot;y&quot;") != std::string::npos);
     CHECK(page.find("prefers-color-scheme: dark") != std::string::npos);
     CHECK(page.find("1 of 1 refused") != std::string::npos);
+}
+
+TEST_CASE("round trips are in every form, with the code that was lost", "[report][round_trip]")
+{
+    analyze::Verification one = with_round_trips();
+    const report::Verifications all{&one, 1};
+    const report::Totals sum = report::totals(all);
+    CHECK(sum.round_trips == 2);
+    CHECK(sum.failed_round_trips == 1);
+    CHECK(sum.verdicts == 3 + 2);
+    CHECK_FALSE(sum.ok());
+
+    const report::Table table = report::round_trip_table(all);
+    REQUIRE(table.rows.size() == 2);
+    for (const auto& cells : table.rows) CHECK(cells.size() == table.columns.size());
+    CHECK(table.rows[0][2].text == "ok");
+    CHECK(table.rows[1][2].text == "FAIL");
+    CHECK(table.rows[1][6].text == "2");
+
+    CHECK(report::findings(all, {}) ==
+          "lost callisto on ue4, ue4, optimized: 2 of 3,072 points came back with another code, 1 "
+          "have a value outside its interval\n"
+          "      at d.r = 1/255, d.b = 37/255\n"
+          "      d.b came back as 38.25, not 37\n");
+    CHECK(
+        report::summary(all, {}, false)
+            .find("codes     1,024 codes of 4 channels unpacked and packed, on the CPU and on the "
+                  "device, 2 targets: 2 points lost, no conforming device can lose one\n") !=
+        std::string::npos);
+
+    const auto json = nlohmann::json::parse(report::to_json(all, false));
+    CHECK(json["ok"] == false);
+    CHECK(json["summary"]["failed_round_trips"] == 1);
+    const auto& lost = json["modules"][0]["round_trips"][1];
+    CHECK(lost["optimized"]["example"]["channel"] == "d.b");
+    CHECK(lost["optimized"]["example"]["expected"] == 37);
+    CHECK(lost["cpu"]["lost"] == 0);
+
+    const std::string xml = report::to_junit(all, false);
+    CHECK(count(xml, "name=\"callisto on ue4 round trip\"") == 2);
+    CHECK(count(xml, "<failure message=\"0 points lost on the CPU, 0 direct, 2 after") == 1);
+
+    const std::string page = report::to_page(all, false);
+    CHECK(count(page, "<td class=\"\">callisto on ue4</td>") == 2);
+    CHECK(page.find("1 of 2 round trips lose codes") != std::string::npos);
+
+    one.round_trips[1].optimized = {};
+    CHECK(report::totals(all).ok());
+    CHECK(report::findings(all, {}).empty());
+    CHECK(report::summary(all, {}, false).find("none lost") != std::string::npos);
+    // Without a device the CPU's word is all there is.
+    for (analyze::RoundTrip& trip : one.round_trips) trip.executed = false;
+    CHECK(report::summary(all, {}, false).find("packed, on the CPU: none lost") !=
+          std::string::npos);
+}
+
+TEST_CASE("without packings nothing is said of codes", "[report][round_trip]")
+{
+    const analyze::Verification one = sample();
+    CHECK(report::round_trip_table({&one, 1}).rows.empty());
+    CHECK(report::summary({&one, 1}, {}, false).find("codes") == std::string::npos);
+    CHECK(report::to_page({&one, 1}, false).find("<h2>Codes</h2>") == std::string::npos);
 }
 
 TEST_CASE("measured times do not reach files unless asked for", "[report]")
