@@ -38,8 +38,9 @@ public:
             const Use use = use_of(channel);
             if (use.bits == 0) continue;
             report_absent(gbuffer_.channels[channel], use);
-            report_format(gbuffer_.channels[channel], use);
-            report_taken(gbuffer_.channels[channel], use);
+            // What can never be had needs no other reason.
+            if (report_taken(gbuffer_.channels[channel], use))
+                report_format(gbuffer_.channels[channel], use);
         }
         report_budget();
     }
@@ -160,8 +161,9 @@ private:
         diagnostics_.report(std::move(diagnostic));
     }
 
-    /// Everyone else who writes, reads or alters a channel where the packing has to work.
-    void report_taken(const Channel& channel, const Use& use)
+    /// Everyone else who writes, reads or alters a channel where the packing has to work. False if
+    /// there is no way around them.
+    bool report_taken(const Channel& channel, const Use& use)
     {
         std::vector<Label> reasons;
         std::vector<std::string> lent;
@@ -191,9 +193,9 @@ private:
             add("is changed by", change.text, change.when, change.span);
         if (channel.field.empty() && reasons.empty()) {
             report_unreachable(channel, use);
-            return;
+            return false;
         }
-        if (reasons.empty()) return;
+        if (reasons.empty()) return true;
 
         Diagnostic diagnostic{
             .code = Code::channel_taken,
@@ -208,7 +210,9 @@ private:
                                 "or store it in another channel"};
         else
             diagnostic.helps = ways_out(complement(taken));
+        const bool passable = lent.size() == reasons.size() || diagnostic.helps.size() > 1;
         diagnostics_.report(std::move(diagnostic));
+        return passable;
     }
 
     void report_unreachable(const Channel& channel, const Use& use)

@@ -144,7 +144,6 @@ private:
         CodeDeclaration& declared = program_.codes[index];
         declared.encode = settle(lowered.encode, found);
         declared.decode = settle(lowered.decode, found);
-        check_inverse(program_, declared, sources_, found);
         forward_from(declared.file, found);
     }
 
