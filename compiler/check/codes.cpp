@@ -232,8 +232,9 @@ private:
         const std::size_t most = is_power ? 2 : builtin.kind == ir::Code::Kind::square_root ? 0 : 1;
         if (given < least || given > most)
             return refuse(fmt::format("`{}` takes {} argument{}, and {} {} given", builtin.name,
-                                      least == most ? fmt::format("{}", most)
-                                                    : fmt::format("at most {}", most),
+                                      most == 0       ? "no"
+                                      : least == most ? fmt::format("{}", most)
+                                                      : fmt::format("at most {}", most),
                                       most == 1 ? "" : "s", given, given == 1 ? "is" : "are"),
                           {clause_.code->span, ""}, {},
                           {fmt::format("it is written {}", builtin.form)});
@@ -376,6 +377,23 @@ Analysis analysis_of(const Program& program, ir::FunctionId id)
         flatten(program.functions, function, {&function.result, 1}, {}, Calls::taken_in)};
 }
 
+/// Two values of which the greater one is certain to have less.
+std::optional<std::pair<double, double>> falling_pair(Analysis& encode, std::vector<double> points)
+{
+    std::ranges::sort(points);
+    double greatest = points.front();
+    Interval most = encode.ranges({{greatest, greatest}})[0][0];
+    for (const double x : points) {
+        const Interval stored = encode.ranges({{x, x}})[0][0];
+        if (stored.high < most.low) return std::pair{greatest, x};
+        if (stored.low > most.low) {
+            most = stored;
+            greatest = x;
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 LoweredCode lower_code(Program& program, std::size_t index, const Sources& sources,
@@ -447,28 +465,24 @@ bool check_inverse(const Program& program, const CodeDeclaration& code, const So
         return false;
     }
 
-    std::ranges::sort(points);
-    double below = points.front();
-    Interval stored_below = encode.ranges({{below, below}})[0][0];
-    for (const double x : points) {
-        const Interval stored = encode.ranges({{x, x}})[0][0];
-        if (stored.high < stored_below.low) {
-            diagnostics.report(
-                {.code = Code::code_not_monotone,
-                 .message = fmt::format("`encode` of the code `{}` falls", name),
-                 .primary = {encode_span, fmt::format("{} at {}, and {} at {}",
-                                                      describe(encode.values({below})[0][0], true),
-                                                      describe(below, true),
-                                                      describe(encode.values({x})[0][0], true),
-                                                      describe(x, true))},
-                 .notes = {"a greater value has a greater code, so that neighboring codes are "
-                           "neighboring values"}});
-            return false;
-        }
-        if (stored.low > stored_below.low) {
-            stored_below = stored;
-            below = x;
-        }
+    // Over values far apart first, which are easier to picture.
+    const ir::Range& range = function.inputs[0].range;
+    std::vector<double> few;
+    for (int i = 0; i <= 4; ++i) few.push_back(range.low + (range.high - range.low) * i / 4);
+    for (std::vector<double>* const some : {&few, &points}) {
+        const auto falls = falling_pair(encode, *some);
+        if (!falls) continue;
+        const auto stored = [&](double x) { return describe(encode.values({x})[0][0], true); };
+        diagnostics.report(
+            {.code = Code::code_not_monotone,
+             .message = fmt::format("`encode` of the code `{}` falls", name),
+             .primary = {encode_span,
+                         fmt::format("{} at {}, and {} at {}", stored(falls->first),
+                                     describe(falls->first, true), stored(falls->second),
+                                     describe(falls->second, true))},
+             .notes = {"a greater value has a greater code, so that neighboring codes are "
+                       "neighboring values"}});
+        return false;
     }
     return true;
 }

@@ -185,7 +185,7 @@ public:
     /// E0609; true if the values rise.
     bool check_rising()
     {
-        for (std::size_t i = 1; i <= run_.top; ++i) {
+        for (std::size_t i = run_.bottom + 1; i <= run_.top; ++i) {
             if (run_.floats[i] > run_.floats[i - 1] && run_.reals[i] > run_.reals[i - 1]) continue;
             const bool same = run_.floats[i] == run_.floats[i - 1];
             const double below = run_.reals[i - 1];
@@ -200,7 +200,7 @@ public:
                                                 number_beside(below, here), i,
                                                 number_beside(here, below))},
                  .secondary = declared_labels(),
-                 .notes = same && here > below
+                 .notes = same && field_.code.kind != ir::Code::Kind::declared
                               ? std::vector<std::string>{"they differ by less than float can say "
                                                          "there"}
                               : std::vector<std::string>{},
@@ -233,6 +233,8 @@ public:
                     fmt::format("the low end, {}, is stored as code {}: the codes below are never "
                                 "written",
                                 number(field_.range.low), run_.bottom));
+            else if (back.low != back.high)
+                diagnostic.helps.push_back("take fewer bits, or a code with larger steps there");
             diagnostics_.report(std::move(diagnostic));
             return;
         }
@@ -267,15 +269,16 @@ private:
         const Acceptance read = run_.stored_and_read(kept.value);
         const double nearest = run_.reals[code];
         Diagnostic diagnostic{.code = Code::value_inexact, .message = {}, .primary = {}};
-        std::string what;
+        // What a device may make of the code holds the value, but not alone.
+        const auto wanted = static_cast<double>(static_cast<float>(kept.value));
+        const bool vague = read.undefined || (read.low <= wanted && wanted <= read.high);
+        std::string what = fmt::format("{} is stored as code {} and comes back as {}",
+                                       number_beside(kept.value, nearest), code,
+                                       number_beside(nearest, kept.value));
         if (kept.value < field_.range.low || kept.value > field_.range.high)
             what = fmt::format("{} is not in {}, and comes back as {}", number(kept.value),
                                describe(field_.range), number(nearest));
-        else if (read.low == read.high)
-            what = fmt::format("{} is stored as code {} and comes back as {}",
-                               number_beside(kept.value, nearest), code,
-                               number_beside(nearest, kept.value));
-        else
+        else if (vague)
             what =
                 fmt::format("{} is stored as code {} and may come back as anything from {} to {}",
                             number(kept.value), code, number_beside(read.low, read.high),
@@ -302,21 +305,17 @@ private:
             diagnostic.secondary = {{kept.span, "the effect"}};
             break;
         }
-        explain(diagnostic, kept.value, read);
-        propose(diagnostic, all);
+        if (!vague) explain(diagnostic, kept.value);
+        propose(diagnostic, kept.value, all);
         diagnostics_.report(std::move(diagnostic));
     }
 
     /// What the codes around a value mean.
-    void explain(Diagnostic& diagnostic, double value, const Acceptance& read) const
+    void explain(Diagnostic& diagnostic, double value) const
     {
-        if (read.low != read.high) {
-            if (field_.code.kind == ir::Code::Kind::log2)
-                diagnostic.notes.push_back(
-                    "a device may be off by some units in the last place of 2^x, so only a value "
-                    "that lies on a code by itself is exact, and `log2` has none there");
-            return;
-        }
+        if (field_.code.kind == ir::Code::Kind::log2 && field_.code.pivot == 0)
+            diagnostic.notes.push_back("the codes of `log2` are at no simple values, but for 0: a "
+                                       "pivot puts one at the low end plus 1");
         const auto above = std::ranges::lower_bound(run_.reals, value);
         if (above == run_.reals.begin() || above == run_.reals.end()) return;
         const auto index = above - run_.reals.begin();
@@ -326,11 +325,10 @@ private:
                                                number_beside(*above, value)));
     }
 
-    void propose(Diagnostic& diagnostic, const std::vector<double>& all) const
+    void propose(Diagnostic& diagnostic, double value, const std::vector<double>& all) const
     {
-        const auto outside = std::ranges::find_if(all, [this](double value) {
-            return value < field_.range.low || value > field_.range.high;
-        });
+        const auto outside = std::ranges::find_if(
+            all, [this](double one) { return one < field_.range.low || one > field_.range.high; });
         if (outside != all.end()) {
             diagnostic.helps.push_back(
                 fmt::format("let the field carry it: `in {}`",
@@ -338,20 +336,27 @@ private:
                                        std::max(*outside, field_.range.high))));
             return;
         }
+        std::string values;
+        for (const double one : std::set<double>(all.begin(), all.end()))
+            values += (values.empty() ? "" : ", ") + number(one);
         if (const auto code = code_for(field_, parameter_, all)) {
-            std::string values;
-            for (const double value : std::set<double>(all.begin(), all.end()))
-                values += (values.empty() ? "" : ", ") + number(value);
             diagnostic.helps.push_back(
                 fmt::format("`code {}` keeps {}", describe(*code, field_.bits), values));
             return;
         }
-        diagnostic.helps.push_back(
-            field_.is_signed
-                ? "a snorm field keeps 0 and its ends, and what lies on its codes: take another "
-                  "range or other bits, or store it as unorm"
-                : "no linear code or power with these bits keeps it: take another range or other "
-                  "bits, or a value that lies on a code");
+        const auto code = code_for(field_, parameter_, {value});
+        if (code && all.size() > 1)
+            diagnostic.helps.push_back(
+                fmt::format("`code {}` keeps {}, but no linear code or power with these bits keeps "
+                            "all of {}",
+                            describe(*code, field_.bits), number(value), values));
+        else
+            diagnostic.helps.push_back(
+                field_.is_signed
+                    ? "a snorm field keeps 0, its ends and what lies on its codes: take another "
+                      "range or other bits, or store it as unorm"
+                    : "no linear code or power with these bits keeps it: take another range or "
+                      "other bits, or a value that lies on a code");
     }
 
     const ir::Module& module_;

@@ -46,6 +46,15 @@ std::optional<ir::Code> power(ir::Field field, int exponent, const std::vector<d
     return pivot ? with_pivot(field, *pivot, 0.75, values) : std::nullopt;
 }
 
+std::optional<ir::Code> logarithm(ir::Field field, const std::vector<double>& values)
+{
+    field.code = {};
+    field.code.kind = Kind::log2;
+    field.code.name = "log2";
+    const auto pivot = reaching_pivot(field);
+    return pivot ? with_pivot(field, *pivot, 0.75, values) : std::nullopt;
+}
+
 std::optional<ir::Code> any_power(const ir::Field& field, const std::vector<double>& values)
 {
     if (field.code.kind == Kind::power)
@@ -75,6 +84,8 @@ std::optional<ir::Code> code_for(const ir::Field& field, const ir::Parameter& pa
     if (field.is_signed) return std::nullopt;
     if (!has_powers) return linear(field, 0.5, values);
     const bool curved = field.code.kind == Kind::power || field.code.kind == Kind::log2;
+    if (field.code.kind == Kind::log2)
+        if (auto code = logarithm(field, values)) return code;
     if (curved)
         if (auto code = any_power(field, values)) return code;
     // A quarter of the codes is worth an easy decode; more is not.

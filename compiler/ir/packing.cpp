@@ -82,6 +82,7 @@ std::vector<double> kept_values(const Module& module, const Packing& packing, co
         field.code.kind == Code::Kind::power || field.code.kind == Code::Kind::log2;
     if (unit_above_low && field.range.low + 1 <= field.range.high) add(field.range.low + 1);
     if (field.is_signed) add(0);
+    for (const Anchor& anchor : field.anchors) add(anchor.value);
     return values;
 }
 

@@ -79,8 +79,9 @@ struct Field {
     bool is_signed = false;       ///< snorm
     Range range{};                ///< what is carried; the parameter's unless the field says `in`
     Code code;
-    std::vector<Anchor> anchors;  ///< of a declared code: the values that must survive, where they
-                                  ///< lie on a code; those of the others follow from the code
+    std::vector<Anchor> anchors;  ///< values that must survive besides those that `kept_values`
+                                  ///< knows; of a declared code all of them, as no formula says
+                                  ///< which code they lie on. See check::place_anchors
     Span span;
     FunctionId encode;
     FunctionId decode;
@@ -140,7 +141,7 @@ double position(const Field& field, double value);
 std::optional<int> code_of(const Field& field, double value);
 
 /// The values of a field's component that have to survive: the default, what is required to be
-/// exact, for power and log2 low + 1, for snorm 0. In this order, each once.
+/// exact, for power and log2 low + 1, for snorm 0, its anchors. In this order, each once.
 std::vector<double> kept_values(const Module& module, const Packing& packing, const Field& field);
 
 /// How many bits a channel has where the packing has to work.
