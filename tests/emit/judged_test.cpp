@@ -2,11 +2,14 @@
 // ship.
 #include "emit/cases.h"
 #include "emit/emit.h"
+#include "emit/packings.h"
 #include "emit/shipped.h"
 #include "verify/judge.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 
 namespace lobe::tests {
@@ -32,19 +35,22 @@ void check_accepted(const verify::Verdict& verdict, const std::string& text)
     if (!verdict.spirv.empty()) CHECK(verify::validate(verdict.spirv).accepted);
 }
 
+void check_file(const emit::Artifact& artifact, const emit::Target& target)
+{
+    const emit::Framed framed = emit::frame(artifact, target);
+    const bool desktop = target.version == 330 || target.version == 300;
+    check_accepted(
+        desktop ? verify::parse_only(framed.text, judge_dialect(target), verify::Stage::fragment)
+                : verify::compile(framed.text, judge_dialect(target), verify::Stage::fragment),
+        framed.text);
+}
+
 void check_files(const Shipped& input)
 {
     for (const emit::Target& target : emit::targets()) {
         CAPTURE(target.name);
-        for (const emit::Artifact& artifact : emit::emit(input.module, input.sources, target)) {
-            const emit::Framed framed = emit::frame(artifact, target);
-            const bool desktop = target.version == 330 || target.version == 300;
-            check_accepted(desktop ? verify::parse_only(framed.text, judge_dialect(target),
-                                                        verify::Stage::fragment)
-                                   : verify::compile(framed.text, judge_dialect(target),
-                                                     verify::Stage::fragment),
-                           framed.text);
-        }
+        for (const emit::Artifact& artifact : emit::emit(input.module, input.sources, target))
+            check_file(artifact, target);
     }
 }
 
@@ -54,7 +60,10 @@ void check_harnesses(const Shipped& input)
         for (const emit::Precision precision :
              {emit::Precision::float32, emit::Precision::float16}) {
             if (precision == emit::Precision::float16 && target.name != "glsl450") continue;
-            for (const ir::FunctionId id : input.module.reachable(input.module.roots())) {
+            std::vector<ir::FunctionId> roots = input.module.roots();
+            if (precision == emit::Precision::float32)
+                std::ranges::copy(input.module.packing_roots(), std::back_inserter(roots));
+            for (const ir::FunctionId id : input.module.reachable(roots)) {
                 CAPTURE(target.name, input.module[id].name);
                 const emit::Harness harness =
                     emit::harness(input.module, input.sources, id, target, precision);
@@ -83,6 +92,25 @@ TEST_CASE("compilers take every file of the models that ship", "[emit][judged]")
         const Shipped input = shipped(name);
         check_files(input);
         check_harnesses(input);
+    }
+}
+
+TEST_CASE("a module's file and its packing's stand in one shader", "[emit][judged][packing]")
+{
+    const Builder b = packed_skin();
+    for (const emit::Target& target : emit::targets()) {
+        CAPTURE(target.name);
+        const auto artifacts = emit::emit(b.module, b.sources, target);
+        REQUIRE(artifacts.size() == 2);
+        emit::Artifact both = artifacts[1];
+        both.text += artifacts[0].text;
+        both.calls.insert(both.calls.end(), artifacts[0].calls.begin(), artifacts[0].calls.end());
+        check_file(both, target);
+        if (target.name != "ue4") continue;
+        // The model's file has seen the macro: without it the parameters stay at their defaults.
+        const std::size_t asked = both.text.find("#ifdef SKIN_PARAMETERS");
+        REQUIRE(asked != std::string::npos);
+        CHECK(both.text.find("#define SKIN_PARAMETERS(") < asked);
     }
 }
 
