@@ -10,10 +10,10 @@
 namespace lobe::check {
 namespace {
 
+using ir::any;
 using ir::both;
 using ir::Channel;
 using ir::Configurations;
-using ir::except;
 
 bool is_unorm(const ir::Format& format) { return format.storage == ir::Storage::unorm; }
 
@@ -37,10 +37,8 @@ public:
         for (std::size_t channel = 0; channel < gbuffer_.channels.size(); ++channel) {
             const Use use = use_of(channel);
             if (use.bits == 0) continue;
-            report_absent(gbuffer_.channels[channel], use);
-            // What can never be had needs no other reason.
-            if (report_taken(gbuffer_.channels[channel], use))
-                report_format(gbuffer_.channels[channel], use);
+            const bool passable = report_taken(gbuffer_.channels[channel], use);
+            report_unfit(gbuffer_.channels[channel], use, passable);
         }
         report_budget();
     }
@@ -107,10 +105,10 @@ private:
         return gbuffer_.name_of(gbuffer_.channels[channel]);
     }
 
-    /// Ways to have only configurations that are good.
-    std::vector<std::string> ways_out(const Configurations& good) const
+    /// Ways to have only configurations that are good, and where the channel is there.
+    std::vector<std::string> ways_out(const Channel& channel, const Configurations& good) const
     {
-        const auto clauses = narrowing(gbuffer_, packing_.supported, good);
+        const auto clauses = narrowing(gbuffer_, packing_.supported, both(good, channel.exists));
         std::string text;
         for (const std::string& clause : clauses)
             text += fmt::format("{}`{}`", text.empty() ? "" : " and ", clause);
@@ -119,45 +117,37 @@ private:
                 "or store it in another channel"};
     }
 
-    void report_absent(const Channel& channel, const Use& use)
-    {
-        const Configurations absent = except(packing_.supported, channel.exists);
-        const auto witness = nearest_to_default(gbuffer_, absent);
-        if (!witness) return;
-        diagnostics_.report(
-            {.code = Code::channel_absent,
-             .message = fmt::format("`{}` is not there wherever this packing has to work",
-                                    gbuffer_.name_of(channel)),
-             .primary = {use.place,
-                         fmt::format("{} it reads {}",
-                                     describe_where(gbuffer_, *witness, complement(channel.exists)),
-                                     channel.absent_value)},
-             .secondary = {{channel.span, fmt::format("this is {}", channel.label)}},
-             .helps = ways_out(channel.exists)});
-    }
-
-    void report_format(const Channel& channel, const Use& use)
+    /// Where the channel is not there, and where it is there but holds no codes. `passable`: it can
+    /// be had at all.
+    void report_unfit(const Channel& channel, const Use& use, bool passable)
     {
         Configurations wrong(packing_.supported.size());
         for (std::size_t i = 0; i < wrong.size(); ++i)
-            wrong[i] = channel.exists[i] &&
+            wrong[i] = channel.exists[i] && passable &&
                        (!is_unorm(channel.formats[i]) || channel.formats[i].bits < use.bits);
-        const auto witness = nearest_to_default(gbuffer_, both(wrong, packing_.supported));
-        if (!witness) return;
-        const ir::Format format = channel.formats[*witness];
+        std::vector<std::string> reasons;
+        const Configurations absent = complement(channel.exists);
+        if (const auto there = nearest_to_default(gbuffer_, both(absent, packing_.supported)))
+            reasons.push_back(fmt::format(
+                "{} it reads {}", describe_where(gbuffer_, *there, absent), channel.absent_value));
+        if (const auto there = nearest_to_default(gbuffer_, both(wrong, packing_.supported))) {
+            const ir::Format format = channel.formats[*there];
+            reasons.push_back(fmt::format(
+                "{} it is {}, {}", describe_where(gbuffer_, *there, wrong), describe(format),
+                is_unorm(format) ? fmt::format("and bit {} is used", use.bits - 1)
+                                 : "which holds no codes"));
+        }
+        if (reasons.empty()) return;
         Diagnostic diagnostic{
             .code = Code::channel_absent,
-            .message = fmt::format("`{}` cannot hold these codes wherever this packing has to work",
-                                   gbuffer_.name_of(channel)),
-            .primary = {use.place,
-                        fmt::format("{} it is {}{}", describe_where(gbuffer_, *witness, wrong),
-                                    describe(format),
-                                    is_unorm(format)
-                                        ? fmt::format(", and bit {} is used", use.bits - 1)
-                                        : "")},
+            .message = fmt::format(
+                "`{}` {} wherever this packing has to work", gbuffer_.name_of(channel),
+                any(both(absent, packing_.supported)) ? "is not there" : "does not hold codes"),
+            .primary = {use.place, reasons[0]},
             .secondary = {{channel.span, fmt::format("this is {}", channel.label)}},
-            .notes = {"codes are whole numbers, which only a unorm channel of enough bits keeps"},
-            .helps = ways_out(complement(wrong))};
+            .helps = {"store it in another channel"}};
+        diagnostic.notes.assign(reasons.begin() + 1, reasons.end());
+        if (passable) diagnostic.helps = ways_out(channel, complement(wrong));
         diagnostics_.report(std::move(diagnostic));
     }
 
@@ -209,7 +199,7 @@ private:
                                             fmt::join(lent, ", ")),
                                 "or store it in another channel"};
         else
-            diagnostic.helps = ways_out(complement(taken));
+            diagnostic.helps = ways_out(channel, complement(taken));
         const bool passable = lent.size() == reasons.size() || diagnostic.helps.size() > 1;
         diagnostics_.report(std::move(diagnostic));
         return passable;
