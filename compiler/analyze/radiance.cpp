@@ -19,7 +19,7 @@ constexpr int rounds = 96;
 struct Question {
     StoredAs stored;
     std::vector<Peak> best;       ///< per chunk, its worst point
-    std::vector<float> anywhere;  ///< errors of the points that are uniform over the box
+    std::vector<double> anywhere;  ///< errors of the points that are uniform over the box
 };
 
 /// Evaluates all points for all questions at once: the exact radiance is the same for all.
@@ -37,7 +37,7 @@ void survey(const RadianceBox& box, const StoredAs& all, std::vector<Question>& 
             place_point(box, all, task * chunk + row, meter, row);
         meter.light();
         for (Question& question : questions) {
-            const std::vector<float>& errors = meter.compare(question.stored);
+            const std::vector<double>& errors = meter.compare(question.stored);
             for (std::size_t row = 0; row < chunk; row += 2)
                 question.anywhere[(task * chunk + row) / 2] = errors[row];
             const auto worst = std::ranges::max_element(errors);
@@ -75,7 +75,7 @@ void ascend(const RadianceBox& box, std::vector<Question*> questions, unsigned j
 }
 
 /// The value that a share of all values does not exceed.
-double quantile(std::vector<float>& values, double share)
+double quantile(std::vector<double>& values, double share)
 {
     const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
     const auto nth = values.begin() + static_cast<std::ptrdiff_t>(at);

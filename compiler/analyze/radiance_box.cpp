@@ -15,7 +15,7 @@ using ir::SurfaceField;
 /// Builds the sum of a model's outputs over the union of their inputs.
 class Sum {
 public:
-    Sum(const ir::Module& module, const ir::Model& model) : module_{module}
+    Sum(const ir::Module& module, const ir::Model& model, Channels channels) : module_{module}
     {
         for (const ir::ModelOutput& output : model.outputs) note(module_[output.function]);
         if (geometry_) {
@@ -29,6 +29,10 @@ public:
         }
         for (const ir::ModelOutput& output : model.outputs) add(output.function);
         function.quantity = module_[model.outputs.front().function].quantity;
+        if (channels == Channels::first && ir::components(function.type()) > 1) {
+            function.result = function.graph.component(function.result, 0);
+            function.quantity = ir::Quantity::number;
+        }
     }
 
     ir::Function function;
@@ -181,19 +185,33 @@ void set_vector(Coordinate& coordinate, GeometryField field, int component)
     }
 }
 
+/// Per input of the tape: something is computed of it.
+std::vector<bool> slots_read(const evaluate::Tape& tape)
+{
+    std::vector<bool> read(tape.slots);
+    for (const evaluate::Instruction& step : tape.code) {
+        const evaluate::Slot operands[] = {step.a, step.b, step.c, step.d};
+        for (int i = 0; i < evaluate::arity(step.op); ++i) read[operands[i]] = true;
+    }
+    for (const evaluate::Slot output : tape.outputs) read[output] = true;
+    return read;
+}
+
 }  // namespace
 
-RadianceBox radiance_box(const ir::Module& module, const ir::Packing& packing)
+RadianceBox radiance_box(const ir::Module& module, const ir::Packing& packing, Channels channels)
 {
-    const Sum sum{module, packing.model};
+    const Sum sum{module, packing.model, channels};
     RadianceBox box;
     box.tape = evaluate::compile(module, sum.function);
+    const std::vector<bool> read = slots_read(box.tape);
     for (const evaluate::TapeInput& scalar : box.tape.inputs) {
         const ir::Input& input = sum.function.inputs[scalar.input];
         const std::size_t index = box.coordinates.size();
         Coordinate& coordinate = box.coordinates.emplace_back();
         coordinate.name = scalar.name;
-        coordinate.whole = input.quantity == ir::Quantity::integer;
+        coordinate.whole =
+            input.quantity == ir::Quantity::integer || input.quantity == ir::Quantity::boolean;
         switch (input.origin) {
         case Origin::geometry: {
             const auto field = static_cast<GeometryField>(input.which);
@@ -210,8 +228,8 @@ RadianceBox radiance_box(const ir::Module& module, const ir::Packing& packing)
         case Origin::argument: set_range(coordinate, input.range); break;
         }
         if (scalar.name == "roughness") box.roughness = index;
-        if (input.origin != Origin::geometry && coordinate.low < coordinate.high)
-            box.values.push_back(index);
+        const bool varies = coordinate.low < coordinate.high && read[index];
+        if (input.origin != Origin::geometry && varies) box.values.push_back(index);
     }
     return box;
 }

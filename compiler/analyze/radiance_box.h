@@ -10,6 +10,7 @@
 #include "ir/module.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,13 +33,20 @@ struct RadianceBox {
     evaluate::Tape tape;  ///< the sum of the model's outputs, one result per channel
     std::vector<Coordinate> coordinates;     ///< one per input of the tape
     std::optional<std::size_t> light, view;  ///< coordinate of l.x and v.x, where l and v occur
-    std::vector<std::size_t> values;         ///< coordinates that vary and are no directions
+    std::vector<std::size_t> values;         ///< those that vary, matter and are no directions
     std::optional<std::size_t> roughness;    ///< where highlights are sharp
 
     std::size_t width() const { return coordinates.size(); }
 };
 
+/// Of colors: all channels, or the first for a search that can do without the others.
+enum class Channels : std::uint8_t {
+    all,
+    first
+};
+
 /// `packing` names a model of the module, or of one that it imports.
-RadianceBox radiance_box(const ir::Module& module, const ir::Packing& packing);
+RadianceBox radiance_box(const ir::Module& module, const ir::Packing& packing,
+                         Channels channels = Channels::all);
 
 }  // namespace lobe::analyze

@@ -1,4 +1,8 @@
 // The error of many points at once: radiance of what was asked for, and of what is stored of it.
+//
+// Points are floats and stored values what a shader gets, but radiance is computed in double: what
+// float loses in an expression, as between two highlights of different size, it loses with and
+// without a packing.
 #pragma once
 
 #include "analyze/radiance_box.h"
@@ -19,7 +23,7 @@ public:
 
     std::size_t rows() const { return rows_; }
     /// The points, to be filled in.
-    float* column(std::size_t coordinate) { return &points_[coordinate * rows_]; }
+    double* column(std::size_t coordinate) { return &points_[coordinate * rows_]; }
     void set(std::size_t row, std::span<const float> point);
     void set_all(std::span<const float> point);
     std::vector<float> point(std::size_t row) const;
@@ -28,7 +32,7 @@ public:
     void light();
     /// The error of every point with some coordinates stored (see radiance.h); 0 where the radiance
     /// is not finite, infinite where only the packed one is not.
-    const std::vector<float>& compare(const StoredAs& stored);
+    const std::vector<double>& compare(const StoredAs& stored);
 
     /// Of the last two, for one point: the channel with the error.
     struct Detail {
@@ -39,16 +43,16 @@ public:
     Detail detail(std::size_t row) const;
 
 private:
-    std::vector<const float*> heads(const std::vector<float>& table) const;
-    float floor_of(std::size_t row) const;
+    std::vector<const double*> heads() const;
+    double floor_of(std::size_t row) const;
 
     const RadianceBox& box_;
     std::size_t rows_;
-    std::vector<float> points_;  ///< column by column, as are all below
-    std::vector<float> stored_;
-    std::vector<float> exact_;
-    std::vector<float> packed_;
-    std::vector<float> errors_;
+    std::vector<double> points_;  ///< column by column, as are all below
+    std::vector<double> stored_;
+    std::vector<double> exact_;
+    std::vector<double> packed_;
+    std::vector<double> errors_;
 };
 
 }  // namespace lobe::analyze

@@ -33,9 +33,9 @@ Vector above_horizon(Vector d)
 
 void write(RadianceMeter& meter, std::size_t first, std::size_t row, const Vector& d)
 {
-    meter.column(first)[row] = static_cast<float>(d.x);
-    meter.column(first + 1)[row] = static_cast<float>(d.y);
-    meter.column(first + 2)[row] = static_cast<float>(d.z);
+    meter.column(first)[row] = double{static_cast<float>(d.x)};
+    meter.column(first + 1)[row] = double{static_cast<float>(d.y)};
+    meter.column(first + 2)[row] = double{static_cast<float>(d.z)};
 }
 
 Vector read(RadianceMeter& meter, std::size_t first, std::size_t row)
@@ -169,17 +169,82 @@ Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<flo
                 } else if (!box.values.empty()) {
                     const std::size_t i =
                         box.values[random.below(static_cast<std::uint32_t>(box.values.size()))];
-                    float& value = meter.column(i)[row];
-                    value = moved_value(random, box.coordinates[i], stored[i], value, reach);
+                    double& value = meter.column(i)[row];
+                    value = moved_value(random, box.coordinates[i], stored[i],
+                                        static_cast<float>(value), reach);
                 }
             }
         meter.light();
-        const std::vector<float>& errors = meter.compare(stored);
+        const std::vector<double>& errors = meter.compare(stored);
         const auto best = std::ranges::max_element(errors);
         if (*best > peak.error)
             peak = {*best, meter.point(static_cast<std::size_t>(best - errors.begin()))};
     }
     return peak;
+}
+
+namespace {
+
+void keep_worst(std::vector<Peak>& peaks, std::size_t count)
+{
+    std::ranges::stable_sort(peaks, [](const Peak& a, const Peak& b) { return a.error > b.error; });
+    if (peaks.size() > count) peaks.resize(count);
+}
+
+Peak worst_row(RadianceMeter& meter, const StoredAs& stored)
+{
+    meter.light();
+    const std::vector<double>& errors = meter.compare(stored);
+    const auto worst = std::ranges::max_element(errors);
+    return {*worst, meter.point(static_cast<std::size_t>(worst - errors.begin()))};
+}
+
+/// The seed, or where only one coordinate is stored, the worst of the seed at its borders.
+Peak at_its_worst(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& seed)
+{
+    const auto is_stored = [](const Steps* steps) { return steps != nullptr; };
+    const auto first = std::ranges::find_if(stored, is_stored);
+    const bool one = std::ranges::count_if(stored, is_stored) == 1;
+    const std::size_t borders = one ? (*first)->borders.size() : 0;
+    // Of many codes, some: the climb moves on from there.
+    const std::size_t tried = std::min<std::size_t>(borders, 127);
+    RadianceMeter meter{box, 2 * tried + 1};
+    meter.set_all(seed);
+    if (one) {
+        const auto index = static_cast<std::size_t>(first - stored.begin());
+        const Coordinate& coordinate = box.coordinates[index];
+        for (std::size_t i = 0; i < tried; ++i) {
+            const float border = (*first)->borders[i * borders / tried];
+            meter.column(index)[2 * i + 1] = settled(coordinate, border);
+            meter.column(index)[2 * i + 2] = settled(coordinate, std::nextafter(border, -infinity));
+        }
+    }
+    return worst_row(meter, stored);
+}
+
+}  // namespace
+
+Peak search(const RadianceBox& box, const StoredAs& stored, const Effort& effort,
+            std::span<const std::vector<float>> seeds)
+{
+    std::vector<Peak> peaks;
+    if (effort.points > 0) {
+        RadianceMeter meter{box, std::max<std::size_t>(1, effort.points / effort.climbs)};
+        for (std::size_t i = 0; i < effort.climbs; ++i) {
+            for (std::size_t row = 0; row < meter.rows(); ++row)
+                place_point(box, stored, i * meter.rows() + row, meter, row);
+            peaks.push_back(worst_row(meter, stored));
+        }
+    }
+    for (const std::vector<float>& seed : seeds) peaks.push_back(at_its_worst(box, stored, seed));
+    keep_worst(peaks, effort.climbs);
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+        const Peak found = climb(box, stored, peaks[i].point, effort.rounds, i);
+        if (found.error > peaks[i].error) peaks[i] = found;
+    }
+    keep_worst(peaks, 1);
+    const Peak found = climb(box, stored, peaks.front().point, 2 * effort.rounds, effort.climbs);
+    return found.error > peaks.front().error ? found : peaks.front();
 }
 
 }  // namespace lobe::analyze

@@ -7,6 +7,8 @@
 #include "analyze/radiance_meter.h"
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace lobe::analyze {
 
@@ -26,5 +28,16 @@ struct Peak {
 /// becoming smaller. Directions stay unit and above the horizon, values in the box.
 Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& start,
            int rounds, std::uint64_t key);
+
+struct Effort {
+    std::size_t points = 0;
+    std::size_t climbs = 0;
+    int rounds = 0;  ///< of each climb; the best is climbed on twice as far
+};
+
+/// The worst that is found from points of the box and from `seeds`. Where one coordinate is stored,
+/// seeds are tried at all of its borders.
+Peak search(const RadianceBox& box, const StoredAs& stored, const Effort& effort,
+            std::span<const std::vector<float>> seeds);
 
 }  // namespace lobe::analyze

@@ -28,7 +28,8 @@ struct SuggestOptions {
 
 /// One parameter in some bits, with its best code.
 struct CurvePoint {
-    int bits = 0;
+    int bits = 0;            ///< of each component
+    bool is_signed = false;  ///< snorm
     ir::Code code;
     double error = 0;  ///< worst, this parameter stored alone
 };
@@ -39,7 +40,7 @@ struct Curve {
 /// The best layout of so many bits.
 struct TradePoint {
     int bits = 0;
-    std::vector<int> shares;  ///< per curve
+    std::vector<int> shares;  ///< bits per curve
     double predicted = 0;     ///< sum over the curves
     double measured = 0;      ///< as a whole
 };

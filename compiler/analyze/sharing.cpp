@@ -1,0 +1,98 @@
+#include "analyze/sharing.h"
+
+#include "analyze/shares.h"
+#include "analyze/tasks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lobe::analyze {
+namespace {
+
+constexpr Effort whole_effort{4096, 24, 40};
+
+}  // namespace
+
+int bits_of(const Subject& subject, std::size_t placed, const Fitted& fitted)
+{
+    return fitted.point.bits * subject.placed[placed].components;
+}
+
+std::optional<int> least_bits(const Subject& subject, const std::vector<FittedCurve>& curves)
+{
+    int bits = 0;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        if (curves[i].empty()) return std::nullopt;
+        bits += bits_of(subject, i, curves[i].front());
+    }
+    return bits;
+}
+
+std::vector<Shared> shares_of(const Subject& subject, const std::vector<FittedCurve>& curves,
+                              int bits)
+{
+    const auto options = [&](auto cost) {
+        std::vector<std::vector<ShareOption>> all(curves.size());
+        for (std::size_t i = 0; i < curves.size(); ++i)
+            for (const Fitted& fitted : curves[i])
+                all[i].push_back({bits_of(subject, i, fitted), cost(fitted.point.error)});
+        return all;
+    };
+    const auto sum = options([](double error) { return error; });
+    const auto product = options([](double error) { return std::log1p(error); });
+
+    std::vector<Shared> found;
+    for (const auto& chosen : {share(sum, bits), share(product, bits), share_evenly(sum, bits)}) {
+        if (!chosen) continue;
+        const auto same = [&](const Shared& other) { return other.options == *chosen; };
+        if (std::ranges::any_of(found, same)) continue;
+        Shared shared{*chosen, 0, 0, -1};
+        for (std::size_t i = 0; i < curves.size(); ++i) {
+            const Fitted& fitted = curves[i][shared.options[i]];
+            shared.bits += bits_of(subject, i, fitted);
+            shared.predicted += fitted.point.error;
+        }
+        found.push_back(std::move(shared));
+    }
+    return found;
+}
+
+double measure(const Subject& subject, const std::vector<FittedCurve>& curves, const Shared& shared)
+{
+    StoredAs stored(subject.box.width(), nullptr);
+    std::vector<std::vector<float>> seeds;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        const Fitted& fitted = curves[i][shared.options[i]];
+        const std::vector<std::size_t>& coordinates = subject.placed[i].coordinates;
+        for (std::size_t k = 0; k < coordinates.size(); ++k)
+            stored[coordinates[k]] = &fitted.steps[k];
+        if (!fitted.peak.point.empty()) seeds.push_back(fitted.peak.point);
+    }
+    return search(subject.box, stored, whole_effort, seeds).error;
+}
+
+std::vector<std::optional<Shared>> best_shares(const std::vector<ShareQuestion>& questions,
+                                               unsigned jobs)
+{
+    struct Task {
+        std::size_t question = 0;
+        Shared shared;
+    };
+    std::vector<Task> tasks;
+    for (std::size_t i = 0; i < questions.size(); ++i)
+        for (Shared& shared :
+             shares_of(*questions[i].subject, *questions[i].curves, questions[i].bits))
+            tasks.push_back({i, std::move(shared)});
+    for_each_task(tasks.size(), jobs, [&](std::size_t i) {
+        const ShareQuestion& question = questions[tasks[i].question];
+        tasks[i].shared.measured = measure(*question.subject, *question.curves, tasks[i].shared);
+    });
+    std::vector<std::optional<Shared>> best(questions.size());
+    for (Task& task : tasks) {
+        std::optional<Shared>& so_far = best[task.question];
+        if (!so_far || task.shared.measured < so_far->measured) so_far = std::move(task.shared);
+    }
+    return best;
+}
+
+}  // namespace lobe::analyze

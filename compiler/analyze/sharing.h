@@ -1,0 +1,44 @@
+// From curves to layouts of all parameters: the bits shared out, and what comes out measured.
+#pragma once
+
+#include "analyze/curves.h"
+
+#include <optional>
+#include <vector>
+
+namespace lobe::analyze {
+
+/// Options of the curves (one index per placed parameter) that share some bits.
+struct Shared {
+    std::vector<std::size_t> options;
+    int bits = 0;          ///< of all components together
+    double predicted = 0;  ///< sum over the curves
+    double measured = -1;  ///< as a whole
+};
+
+/// How many bits an option takes, for all components.
+int bits_of(const Subject& subject, std::size_t placed, const Fitted& fitted);
+
+/// The fewest bits in which every parameter has an option.
+std::optional<int> least_bits(const Subject& subject, const std::vector<FittedCurve>& curves);
+
+/// The layouts of up to `bits` bits that are worth measuring: least sum of errors, least product of
+/// (1 + error), which is what independent errors do to a pixel, and least maximum. Not measured
+/// yet; none twice; none when the bits do not do.
+std::vector<Shared> shares_of(const Subject& subject, const std::vector<FittedCurve>& curves,
+                              int bits);
+
+/// The worst error with all of them stored.
+double measure(const Subject& subject, const std::vector<FittedCurve>& curves,
+               const Shared& shared);
+
+/// The best measured layout for each of several questions, all measured side by side.
+struct ShareQuestion {
+    const Subject* subject = nullptr;
+    const std::vector<FittedCurve>* curves = nullptr;
+    int bits = 0;
+};
+std::vector<std::optional<Shared>> best_shares(const std::vector<ShareQuestion>& questions,
+                                               unsigned jobs);
+
+}  // namespace lobe::analyze
