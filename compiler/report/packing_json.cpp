@@ -125,6 +125,7 @@ ordered_json to_json(const analyze::Suggestion& suggestion)
         ordered_json points = ordered_json::array();
         for (const analyze::CurvePoint& point : curve.points)
             points.push_back({{"bits", point.bits},
+                              {"signed", point.is_signed},
                               {"code", describe(point.code, point.bits)},
                               {"worst", number(point.error)}});
         curves[module.parameters[curve.parameter].name] = std::move(points);

@@ -55,6 +55,9 @@ Layout layout_of(const Packed& packed);
 /// word is longer than a line; nothing if it needs more than `most` lines or cannot be read.
 std::vector<std::string> on_lines(std::string_view name, int width, int most);
 
+/// Folds a text at spaces to look.width, or 80; every line starts with so many spaces.
+std::string folded(const std::string& text, std::size_t indent, const Look& look);
+
 /// Names that did not fit their boxes: a key stands there, and the legend says what it means.
 class Legend {
 public:

@@ -128,12 +128,13 @@ std::vector<Section> sections_of(const Packed& packed)
                        {}});
     if (suggestion.found) out.push_back({"To paste", {}, suggestion.text, "", {}});
     if (!suggestion.trade.empty())
-        out.push_back({"Error against bits",
-                       {"Measured: the best layout of so many bits, as a whole. Predicted: the sum "
-                        "of its parameters' own errors."},
-                       "",
-                       plot_svg(trade_plot(packed)),
-                       {trade_table(suggestion)}});
+        out.push_back(
+            {"Error against bits",
+             {"Measured: the best layout of so many bits, as a whole. Predicted: the sum "
+              "of its parameters' own errors. Bits of each are in the order of the next table."},
+             "",
+             plot_svg(trade_plot(packed)),
+             {trade_table(suggestion)}});
     if (!suggestion.curves.empty())
         out.push_back(
             {"Each parameter by its bits",

@@ -196,7 +196,7 @@ std::string layout_picture(const Packed& packed, const Look& look)
         out += draw_row(row, look.color);
     }
     for (const std::string& line : legend.lines()) out += "  " + line + "\n";
-    return out + "  " + room_left(packed) + "\n";
+    return out + folded(room_left(packed), margin, look);
 }
 
 }  // namespace lobe::report

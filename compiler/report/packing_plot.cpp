@@ -61,8 +61,10 @@ Axes axes_of(const Plot& plot)
             least = std::min(least, level.error);
             most = std::max(most, level.error);
         }
-    const int high = tick_below(most) + 1;
-    for (int index = std::max(tick_below(least), high - most_ticks); index <= high; ++index)
+    const int below = tick_below(most);
+    const int high = tick(below) < most ? below + 1 : below;
+    const int low = std::min(tick_below(least), high - 1);
+    for (int index = std::max(low, high - most_ticks); index <= high; ++index)
         out.ticks.push_back(tick(index));
     return out;
 }
@@ -102,7 +104,7 @@ Plot curve_plot(const analyze::Suggestion& suggestion)
             series.points.emplace_back(point.bits, point.error);
         if (suggestion.found)
             for (const ir::Field& field : suggestion.module.packings.back().fields)
-                if (field.parameter == curve.parameter) series.chosen += field.bits;
+                if (field.parameter == curve.parameter) series.chosen = field.bits;
         out.series.push_back(std::move(series));
     }
     return out;
@@ -131,7 +133,9 @@ std::string plot_text(const Plot& plot, const Look& look)
         std::ranges::replace(line, ' ', '-');
         // At the right, where errors are small and the line is free.
         const std::string name = " " + level.name + " " + percent(level.error) + " ";
-        if (name.size() < line.size())
+        if (name.size() + 2 > line.size())
+            line += name;
+        else
             line.replace(line.size() - name.size() - 1, name.size(), name);
     }
     for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series)

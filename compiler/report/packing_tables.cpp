@@ -31,6 +31,20 @@ int bits_of(const ir::Packing& packing, std::uint32_t parameter)
     return sum;
 }
 
+std::string code_in_words(const ir::Code& code, int bits, bool is_signed)
+{
+    return (is_signed ? "signed " : "") + describe(code, bits);
+}
+
+/// What a search gave to each component of a parameter; 0 without a result.
+int chosen_bits(const analyze::Suggestion& suggestion, std::uint32_t parameter)
+{
+    if (!suggestion.found) return 0;
+    for (const ir::Field& field : suggestion.module.packings.back().fields)
+        if (field.parameter == parameter) return field.bits;
+    return 0;
+}
+
 const analyze::CurvePoint* at_bits(const analyze::Curve& curve, int bits)
 {
     for (const analyze::CurvePoint& point : curve.points)
@@ -53,7 +67,7 @@ Table field_table(const Packed& packed)
         table.rows.push_back(
             {{field_name(*packed.module, field), Style::strong},
              {slots_of(packed, field)},
-             {(field.is_signed ? "signed " : "") + describe(field.code, field.bits)},
+             {code_in_words(field.code, field.bits, field.is_signed)},
              {std::to_string(codes.codes)},
              {fmt::format("[{}, {}]", value(codes.low), value(codes.high))},
              {fmt::format("{} -> {}", value(codes.default_value), value(codes.default_decoded)),
@@ -89,7 +103,7 @@ Table curve_table(const analyze::Suggestion& suggestion, int columns)
     table.columns = {{"worst error, % at bits"}};
     const ir::Module& module = suggestion.module;
     const auto chosen = [&](const analyze::Curve& curve) {
-        return suggestion.found ? bits_of(module.packings.back(), curve.parameter) : 0;
+        return chosen_bits(suggestion, curve.parameter);
     };
     int first = 16, last = 0, least = 16, most = 0;
     for (const analyze::Curve& curve : suggestion.curves) {
@@ -122,7 +136,8 @@ Table curve_table(const analyze::Suggestion& suggestion, int columns)
                                                                              : Style::plain});
         }
         const analyze::CurvePoint* taken = at_bits(curve, chosen(curve));
-        row.push_back({taken == nullptr ? "" : describe(taken->code, taken->bits)});
+        row.push_back(
+            {taken == nullptr ? "" : code_in_words(taken->code, taken->bits, taken->is_signed)});
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -131,7 +146,8 @@ Table curve_table(const analyze::Suggestion& suggestion, int columns)
 Table trade_table(const analyze::Suggestion& suggestion)
 {
     Table table;
-    table.columns = {{"bits", true}, {"predicted", true}, {"measured", true}, {"shares"}};
+    table.columns = {
+        {"bits", true}, {"predicted", true}, {"measured", true}, {"bits of each parameter"}};
     for (const analyze::TradePoint& point : suggestion.trade) {
         std::string shares;
         for (const int share : point.shares)

@@ -10,26 +10,6 @@
 namespace lobe::report {
 namespace {
 
-constexpr int default_width = 80;
-
-/// Folds a text at spaces; every line starts with so many spaces.
-std::string folded(const std::string& text, std::size_t indent, const Look& look)
-{
-    const auto width = static_cast<std::size_t>(look.width > 0 ? look.width : default_width);
-    std::string out, line;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find(' ', at), text.size());
-        const std::string word = text.substr(at, end - at);
-        if (!line.empty() && indent + line.size() + 1 + word.size() > width) {
-            out += std::string(indent, ' ') + line + "\n";
-            line.clear();
-        }
-        line += (line.empty() ? "" : " ") + word;
-        at = end + 1;
-    }
-    return line.empty() ? out : out + std::string(indent, ' ') + line + "\n";
-}
-
 /// What a suggestion has to say besides its packing.
 std::string suggestion_text(const Packed& packed, const Look& look)
 {
@@ -60,6 +40,23 @@ std::string suggestion_text(const Packed& packed, const Look& look)
 }
 
 }  // namespace
+
+std::string folded(const std::string& text, std::size_t indent, const Look& look)
+{
+    const auto width = static_cast<std::size_t>(look.width > 0 ? look.width : 80);
+    std::string out, line;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        const std::string word = text.substr(at, end - at);
+        if (!line.empty() && indent + line.size() + 1 + word.size() > width) {
+            out += std::string(indent, ' ') + line + "\n";
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + word;
+        at = end + 1;
+    }
+    return line.empty() ? out : out + std::string(indent, ' ') + line + "\n";
+}
 
 std::string error_listing(const Packed& packed, const Look& look)
 {
