@@ -93,7 +93,7 @@ Complements find_complements(const Module& module)
     Complements given;
     for (const Function& function : module.functions) given.emplace_back(function.inputs.size());
     std::vector<bool> is_reachable(module.functions.size());
-    for (const FunctionId id : module.reachable(module.roots())) is_reachable[id.index] = true;
+    for (const FunctionId id : module.reachable(all_roots(module))) is_reachable[id.index] = true;
     for (std::size_t i = module.functions.size(); i-- > 0;) {
         if (!is_reachable[i]) continue;
         const Function& caller = module.functions[i];

@@ -2,6 +2,7 @@
 
 #include "evaluate/run.h"
 #include "optimize/literal.h"
+#include "optimize/rewrite.h"
 
 #include <fmt/format.h>
 
@@ -147,7 +148,7 @@ private:
 
 std::optional<std::string> illegal(const Module& module)
 {
-    for (const FunctionId id : module.reachable(module.roots()))
+    for (const FunctionId id : module.reachable(all_roots(module)))
         if (auto broken = Checker{module, module[id]}.run()) return broken;
     return std::nullopt;
 }

@@ -60,7 +60,7 @@ Module narrow(const Module& module, const Limits& limits)
     limit_inputs(result, limits);
 
     const std::vector<bool> is_root = root_flags(result);
-    const std::vector<FunctionId> reachable = result.reachable(result.roots());
+    const std::vector<FunctionId> reachable = result.reachable(all_roots(result));
     Passed passed;
     for (const Function& function : result.functions) passed.emplace_back(function.inputs.size());
     // Callers come after their callees, so from the back every range is final when it is read.

@@ -1,6 +1,7 @@
 #include "optimize/rewrite.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace lobe::optimize {
@@ -227,11 +228,17 @@ std::pair<Function, std::vector<Wire>> Rebuild::finish()
     return {std::move(function), std::move(wires)};
 }
 
+std::vector<FunctionId> all_roots(const Module& module)
+{
+    std::vector<FunctionId> roots = module.roots();
+    std::ranges::copy(module.packing_roots(), std::back_inserter(roots));
+    return roots;
+}
+
 std::vector<bool> root_flags(const Module& module)
 {
     std::vector<bool> flags(module.functions.size());
-    for (const FunctionId id : module.roots()) flags[id.index] = true;
-    for (const FunctionId id : module.packing_roots()) flags[id.index] = true;
+    for (const FunctionId id : all_roots(module)) flags[id.index] = true;
     return flags;
 }
 

@@ -6,9 +6,9 @@
 // Functions keep their ids and their order.
 //
 // What happens to inputs: those that an expression still reads stay, and so do the arguments of
-// the module's roots, whose signature is a promise to the caller. An input of another origin
-// (geometry, surface, parameter) that a callee gained is handed on from the caller's own input of
-// that origin, which the caller gains in turn.
+// the module's roots (those that pack and unpack are among them), whose signature is a promise to
+// the caller. An input of another origin (geometry, surface, parameter) that a callee gained is
+// handed on from the caller's own input of that origin, which the caller gains in turn.
 #pragma once
 
 #include "ir/module.h"
@@ -110,7 +110,10 @@ bool any_expression(const ir::Graph& graph, Holds holds)
     return false;
 }
 
-/// Which functions are roots, by index.
+/// The module's roots, and the functions that pack and unpack: whatever is called from outside.
+std::vector<ir::FunctionId> all_roots(const ir::Module& module);
+
+/// Which functions are among them, by index.
 std::vector<bool> root_flags(const ir::Module& module);
 
 /// Equal inputs and, up to the order of ids, spans and the names of lets, equal expressions: what

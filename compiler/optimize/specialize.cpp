@@ -57,7 +57,7 @@ AllTraffic observe_calls(const Module& module)
 {
     AllTraffic traffic;
     for (const Function& function : module.functions) traffic.emplace_back(function.inputs.size());
-    for (const FunctionId id : module.reachable(module.roots())) {
+    for (const FunctionId id : module.reachable(all_roots(module))) {
         const Graph& graph = module[id].graph;
         const auto uses = use_counts(graph, module[id].result);
         for (const ExprId call : graph.ids()) {

@@ -93,7 +93,7 @@ ir::Field stored(const Builder& b, std::uint32_t parameter, std::vector<ir::Slot
 
 }  // namespace
 
-Builder packed_skin()
+Builder checked_skin()
 {
     using Kind = ir::Code::Kind;
     Builder b{"skin"};
@@ -131,6 +131,12 @@ Builder packed_skin()
     packing.fields[2].is_signed = true;
     ir::build_functions(b.module, packing, b.module.gbuffers.front());
     b.module.packings.push_back(std::move(packing));
+    return b;
+}
+
+Builder packed_skin()
+{
+    Builder b = checked_skin();
     b.module = optimize::optimize(b.module);
     return b;
 }
