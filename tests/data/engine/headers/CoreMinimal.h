@@ -16,7 +16,7 @@ using TCHAR = char16_t;
 #define TEXT(Text) u##Text
 #define INDEX_NONE (-1)
 #define check(Expression) static_cast<void>(Expression)
-#define ensure(Expression) (Expression)
+#define ensure(Expression) static_cast<void>(Expression)
 
 class FString
 {
