@@ -78,6 +78,7 @@ struct Evaluate {
     {
         std::vector<std::string> names;
         for (const ir::FunctionId id : module.roots()) names.push_back(module[id].name);
+        for (const ir::FunctionId id : module.packing_roots()) names.push_back(module[id].name);
         const auto near = nearest(term, names);
         std::string list;
         for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -97,8 +98,9 @@ void add_evaluate(CLI::App& app, const Terminal& terminal, int& status)
     command->add_option("FILE", evaluate->input, "A .lobe file")->required();
     command
         ->add_option("--term", evaluate->term,
-                     "A term, a form (`F_Schlick.spherical_gaussian`) or a model's output "
-                     "(`callisto.diffuse`)")
+                     "A term, a form (`F_Schlick.spherical_gaussian`), a model's output "
+                     "(`callisto.diffuse`), or what packs and unpacks (`pack_d_r`, "
+                     "`unpack_retroreflection`)")
         ->required();
     command->add_option("--csv", evaluate->table, "The table; `-` reads standard input")
         ->capture_default_str();

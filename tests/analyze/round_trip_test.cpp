@@ -1,6 +1,7 @@
 // Every code of every channel comes back: counted out in whole numbers, computed on the CPU, run on
 // the device as emitted, promised by the contract.
 #include "analyze/round_trip.h"
+#include "analyze/table.h"
 #include "analyze/verify.h"
 #include "emit/packings.h"
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 
 using namespace lobe;
 
@@ -235,6 +237,31 @@ TEST_CASE("verify runs what packs and unpacks like any function, and every round
     CHECK_FALSE(judged.round_trips[0].executed);
     CHECK(judged.round_trips[0].codes == 6 * 256 + 1024);
     CHECK_FALSE(judged.round_trips[0].judgements.empty());
+}
+
+TEST_CASE("what packs and unpacks is evaluated like any term", "[round_trip][table]")
+{
+    const tests::Builder b = tests::packed_skin();
+    const auto evaluate = [&](const char* term, const std::string& table, const char* number) {
+        const auto function = analyze::find_function(b.module, term);
+        REQUIRE(function);
+        std::istringstream in{table};
+        std::ostringstream out;
+        const auto outcome = analyze::evaluate_table(b.module, *function,
+                                                     *analyze::find_number_kind(number), in, out);
+        REQUIRE_FALSE(outcome.error);
+        return out.str();
+    };
+    // 127 is the pivot of power(8, 127/255), the code of 1.
+    CHECK(evaluate("encode_gain", "x\n1\n256\n1000\n", "float") ==
+          "x,encode_gain\n1,127\n256,254\n1000,254\n");
+    CHECK(evaluate("decode_gain", "code\n127\n0\n", "acceptance") ==
+          "code,decode_gain.low,decode_gain.high,decode_gain.undefined\n127,1,1,0\n0,0,0,0\n");
+    CHECK(evaluate("unpack_terminator", "d_a\n0.47058823529411764\n", "float") ==
+          "d_a,unpack_terminator\n0.47058823529411764,0\n");
+    // 120 times the float just below 1/255, as its decimal says; an absent depth is its default.
+    CHECK(evaluate("pack_d_a", "terminator\n0\n", "mpfr:200")
+              .starts_with("terminator,pack_d_a\n0,4.70588208000000000000"));
 }
 
 TEST_CASE("a lost code fails the verification", "[round_trip][verify]")
