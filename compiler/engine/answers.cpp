@@ -47,8 +47,11 @@ public:
     bool version()
     {
         std::string looked_in;
+        const Query* asked = nullptr;
+        int line = 0;
         for (const Query& query : list_.queries) {
             if (query.kind != Kind::version) continue;
+            asked = &query;
             if (!looked_in.empty()) looked_in += ", ";
             looked_in += path(query);
             if (!is_asked(query)) continue;
@@ -57,17 +60,18 @@ public:
             answers_.version_text =
                 query.name.empty() ? joined_groups(query, hits->front()) : query.name;
             answers_.version = parse_version(answers_.version_text);
+            line = file(query).shown_line(lines_of(file(query), *hits->front()[0]).first);
             if (answers_.version) break;
         }
         if (looked_in.empty()) return true;
         if (!answers_.version) {
-            fail({}, "the engine's version cannot be told",
+            fail(*asked, 0, "the engine's version cannot be told",
                  fmt::format("it is looked for in {}", looked_in));
             return false;
         }
         if ((list_.first_version && *answers_.version < *list_.first_version) ||
             (list_.last_version && *answers_.version > *list_.last_version)) {
-            fail({}, fmt::format("this is engine {}", answers_.version_text),
+            fail(*asked, line, fmt::format("this is engine {}", answers_.version_text),
                  fmt::format("patches are known for {} to {}", shown(*list_.first_version),
                              shown(*list_.last_version)));
             return false;
@@ -154,8 +158,11 @@ private:
     {
         const auto hits = hits_of(query);
         if (!hits) return std::nullopt;
-        if (hits->size() == 1 && hits->front()[1])
+        if (hits->size() == 1 && hits->front()[1]) {
+            places_.push_back(
+                {&query, file(query).shown_line(file(query).line_at(hits->front()[1]->begin))});
             return std::string{file(query).at(*hits->front()[1])};
+        }
         if (hits->empty() && query.fallback) return query.fallback;
         fail(query,
              hits->empty() ? "this value is not there"
@@ -196,11 +203,15 @@ private:
         return number_of(value != nullptr ? *value : text);
     }
 
+    static bool is_of(const std::string& operand, const std::string& value)
+    {
+        return operand == value || operand == value + "_plus_1";
+    }
+
     bool is_unknown(const std::string& name) const
     {
-        return std::ranges::any_of(unknown_, [&](const std::string& unknown) {
-            return name == unknown || name == unknown + "_plus_1";
-        });
+        return std::ranges::any_of(
+            unknown_, [&](const std::string& unknown) { return is_of(name, unknown); });
     }
 
     void compare(const Query& query)
@@ -215,8 +226,12 @@ private:
         };
         const bool fine =
             left && right && (query.kind == Kind::at_most ? *right <= *left : *right == *left);
+        const auto place = std::ranges::find_if(places_, [&](const Place& known) {
+            return is_of(query.right, known.query->name) || is_of(query.left, known.query->name);
+        });
+        const bool has_place = place != places_.end();
         if (!fine)
-            fail(query,
+            fail(has_place ? *place->query : query, has_place ? place->line : 0,
                  fmt::format("{}: {} should be {} {}", query.why, shown_operand(query.right, right),
                              query.kind == Kind::at_most ? "at most" : "equal to",
                              shown_operand(query.left, left)),
@@ -255,21 +270,27 @@ private:
     void fail(const Query& query, std::string what, std::string help,
               const std::vector<Hit>& hits = {})
     {
-        Obstacle obstacle;
-        obstacle.edit = query.name;
-        obstacle.anchor = query.anchor.pattern;
-        obstacle.what = std::move(what);
-        obstacle.help = std::move(help);
-        if (query.file >= 0) obstacle.file = path(query);
-        if (!hits.empty())
-            obstacle.line = file(query).shown_line(lines_of(file(query), *hits[0][0]).first);
-        obstacles_.push_back(std::move(obstacle));
+        const bool is_somewhere = query.file >= 0 && !hits.empty();
+        fail(query,
+             is_somewhere ? file(query).shown_line(lines_of(file(query), *hits[0][0]).first) : 0,
+             std::move(what), std::move(help));
+    }
+
+    void fail(const Query& query, int line, std::string what, std::string help)
+    {
+        obstacles_.push_back({query.file >= 0 ? path(query) : std::string{}, line, query.name,
+                              query.anchor.pattern, std::move(what), std::move(help)});
     }
 
     const EditList& list_;
     const SearchedFiles& files_;
     Answers& answers_;
     std::vector<Obstacle>& obstacles_;
+    struct Place {
+        const Query* query;
+        int line;
+    };
+    std::vector<Place> places_;  // of the values that were read
     std::vector<std::string> unknown_;
 };
 

@@ -261,6 +261,50 @@ private:
     std::vector<Placement> places_;
 };
 
+void refuse(const Searched& file, const Placement& place, std::size_t line, std::string what,
+            std::string help, std::vector<Obstacle>& obstacles)
+{
+    obstacles.push_back({file.path, file.shown_line(std::min(line, file.lines.lines.size() - 1)),
+                         place.edit, place.anchor, std::move(what), std::move(help)});
+}
+
+/// What may not be next to a region, or in it.
+void check_text_around(const Searched& file, const Placement& place,
+                       std::vector<Obstacle>& obstacles)
+{
+    const std::vector<Line>& lines = file.lines.lines;
+    const auto fail = [&](std::size_t line, std::string what, std::string help) {
+        refuse(file, place, line, std::move(what), std::move(help), obstacles);
+    };
+    const auto continues = [&](std::size_t behind) {
+        return behind > 0 && ends_in_backslash(lines[behind - 1].text);
+    };
+    if (continues(place.from) || continues(place.to))
+        fail((continues(place.from) ? place.from : place.to) - 1,
+             "a line that ends in a backslash continues where the region goes",
+             "move the anchor before or behind the whole macro");
+    else if (!place.lines.empty() && ends_in_backslash(place.lines.back()))
+        fail(place.from, "the text of the edit ends in a backslash", "end it in whole lines");
+
+    // The line end in front of the region's first line.
+    const std::size_t front =
+        place.from > 0 ? file.starts[place.from - 1] + lines[place.from - 1].text.size() : 0;
+    if (place.from > 0 && file.parts[front] == Part::block_comment)
+        fail(place.from, "the region would stand inside of a comment",
+             "move the anchor to where code is");
+
+    const auto marks = file.marks.begin();
+    const auto from = marks + static_cast<std::ptrdiff_t>(place.from);
+    const auto to = marks + static_cast<std::ptrdiff_t>(place.to);
+    if (const auto mark = std::find(from, to, true); mark != to)
+        fail(static_cast<std::size_t>(mark - marks),
+             "the lines to be changed reach over a mark of another model's region",
+             "revert that model, patch this one, then patch that one again");
+    if (std::ranges::any_of(place.lines, looks_like_mark))
+        fail(place.from, "the text of the edit has a line that looks like a region's mark",
+             "word that line differently");
+}
+
 }  // namespace
 
 std::vector<Placement> place(const Edit& edit, const Searched& file, const emit::Record& record,
@@ -272,44 +316,19 @@ std::vector<Placement> place(const Edit& edit, const Searched& file, const emit:
 void check_places(const Searched& file, const std::vector<Placement>& places,
                   std::vector<Obstacle>& obstacles)
 {
-    const std::vector<Line>& lines = file.lines.lines;
     for (const Placement& place : places) {
-        const auto refuse = [&](std::size_t line, std::string what, std::string help) {
-            obstacles.push_back({file.path, file.shown_line(line), place.edit, place.anchor,
-                                 std::move(what), std::move(help)});
-        };
-        // Between two lines there is room for a region unless the first continues in the second.
-        for (const std::size_t at : {place.from, place.to})
-            if (at > 0 && ends_in_backslash(lines[at - 1].text)) {
-                refuse(at - 1, "a line that ends in a backslash continues where the region goes",
-                       "move the anchor before or behind the whole macro");
-                break;
-            }
-        // The line end in front of the region's first line.
-        if (place.from > 0 &&
-            file.parts[file.starts[place.from - 1] + lines[place.from - 1].text.size()] ==
-                Part::block_comment)
-            refuse(place.from, "the region would stand inside of a comment",
-                   "move the anchor to where code is");
-        for (std::size_t line = place.from; line < place.to; ++line)
-            if (file.marks[line]) {
-                refuse(line, "the lines to be changed reach over a mark of another model's region",
-                       "revert that model, patch this one, then patch that one again");
-                break;
-            }
-        if (std::ranges::any_of(place.lines, looks_like_mark))
-            refuse(place.from, "the text of the edit has a line that looks like a region's mark",
-                   "word that line differently");
-        if (!place.lines.empty() && ends_in_backslash(place.lines.back()))
-            refuse(place.from, "the text of the edit ends in a backslash", "end it in whole lines");
+        check_text_around(file, place, obstacles);
         for (const Placement& other : places) {
-            const bool inside =
-                place.from == place.to
-                    ? other.from < place.from && place.from < other.to
-                    : &other < &place && other.from < place.to && place.from < other.to;
-            if (inside)
-                refuse(place.from, fmt::format("edit `{}` changes the same lines", other.edit),
-                       "make one edit of the two in the list");
+            // Of two that take the place of lines the later one is named; what goes in between
+            // lines is named if these are changed together.
+            const bool collides = place.from == place.to
+                                      ? other.from < place.from && place.from < other.to
+                                      : &other < &place && other.from != other.to &&
+                                            other.from < place.to && place.from < other.to;
+            if (collides)
+                refuse(file, place, place.from,
+                       fmt::format("edit `{}` changes the same lines", other.edit),
+                       "make one edit of the two in the list", obstacles);
         }
     }
 }
