@@ -1,13 +1,17 @@
 // The language reference says only what compiles.
+#include "analyze/radiance.h"
 #include "base/render.h"
 #include "check/check.h"
 #include "compile.h"
+#include "syntax/format.h"
+#include "syntax/parse.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <span>
 #include <sstream>
 
 namespace lobe {
@@ -24,11 +28,9 @@ std::string read(const std::string& path)
 }
 
 /// The fenced blocks of a page that hold the language: those without a word behind the fence that
-/// begin with an item.
-std::vector<std::string> examples(const std::string& page)
+/// begin with one of these items.
+std::vector<std::string> examples(const std::string& page, std::span<const std::string_view> items)
 {
-    constexpr std::array<std::string_view, 6> items{"module", "tier",  "param",
-                                                    "term",   "model", "effect"};
     std::istringstream lines{read(page)};
     std::vector<std::string> found;
     bool inside = false;
@@ -55,7 +57,7 @@ std::vector<std::string> examples(const std::string& page)
     return found;
 }
 
-/// Messages about a text; empty when there are none.
+/// Messages about a text; empty when there are none. What packings ask of radiance is measured.
 std::string complaints(const std::string& text)
 {
     const check::Loader loader = [](Sources& sources, std::string_view module, std::string_view) {
@@ -64,7 +66,15 @@ std::string complaints(const std::string& text)
     };
     Sources sources;
     Diagnostics diagnostics;
-    front(sources, sources.add("example.lobe", text), loader, diagnostics);
+    const std::uint32_t source = sources.add("example.lobe", text);
+    if (const auto module = front(sources, source, loader, diagnostics)) {
+        const ir::Module computed = middle(*module);
+        for (const ir::Packing& packing : computed.packings) {
+            const auto errors = analyze::packing_errors(computed, packing);
+            const Diagnostics unmet = analyze::unmet(computed, packing, errors);
+            for (const Diagnostic& diagnostic : unmet.all()) diagnostics.report(diagnostic);
+        }
+    }
     return render_text(sources, diagnostics);
 }
 
@@ -72,7 +82,9 @@ std::string complaints(const std::string& text)
 
 TEST_CASE("every example of the language reference compiles without a complaint")
 {
-    const auto found = examples("../docs/language.md");
+    constexpr std::array<std::string_view, 6> items{"module", "tier",  "param",
+                                                    "term",   "model", "effect"};
+    const auto found = examples("../docs/language.md", items);
     REQUIRE(found.size() == 6);
     for (const std::string& example : found) {
         // A fragment stands in a module that declares what it cites and calls.
@@ -94,6 +106,22 @@ TEST_CASE("every example of the language reference compiles without a complaint"
         CAPTURE(text);
         CHECK(complaints(text) == "");
     }
+}
+
+TEST_CASE("the gbuffer, packing, code and engine of the language reference fit each other")
+{
+    constexpr std::array<std::string_view, 4> items{"gbuffer", "packing", "code", "engine"};
+    const auto found = examples("../docs/language.md", items);
+    REQUIRE(found.size() == 4);
+    std::string text = "module fragment\nimport callisto { callisto_lambert }\n";
+    for (const std::string& example : found) text += example;
+    CAPTURE(text);
+    CHECK(complaints(text) == "");
+
+    Sources sources;
+    Diagnostics diagnostics;
+    const auto tree = syntax::parse(sources, sources.add("example.lobe", text), diagnostics);
+    CHECK(syntax::format(tree) == text);
 }
 
 }  // namespace lobe
