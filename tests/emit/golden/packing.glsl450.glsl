@@ -84,7 +84,7 @@ float decode_falloff(float code)
 }
 
 // The code of terminator: 31 codes over [-1, 1], linear.
-// = round(15 + 15 * x / 1)
+// = round(15 + 15 * x)
 // Returns [0, 30].
 // models/skin.lobe:30
 float encode_terminator(float x)
@@ -93,7 +93,7 @@ float encode_terminator(float x)
 }
 
 // Bits 3..7 of d.a: terminator, 31 codes over [-1, 1], linear.
-// = 1 * (code - 15) / 15
+// = (code - 15) / 15
 // Expects code in [0, 30]. Returns [-1, 1].
 // models/skin.lobe:30
 float decode_terminator(float code)
@@ -102,7 +102,7 @@ float decode_terminator(float code)
 }
 
 // The code of roughening: 16 codes over [0, 1], sqrt.
-// = round(15 * sqrt(x / 1))
+// = round(15 * sqrt(x))
 // Returns [0, 15].
 // models/skin.lobe:30
 float encode_roughening(float x)
@@ -111,7 +111,7 @@ float encode_roughening(float x)
 }
 
 // Bits 0..3 of d.g: roughening, 16 codes over [0, 1], sqrt.
-// = 1 * (code / 15)^2
+// = (code / 15)^2
 // Expects code in [0, 15]. Returns [0, 1].
 // models/skin.lobe:30
 float decode_roughening(float code)
@@ -120,7 +120,7 @@ float decode_roughening(float code)
 }
 
 // The code of sheen: 256 codes over [0, 4], log2(100/255).
-// = round(100 * log2(1 + x))
+// = round(100 * log2(x + 1))
 // Returns [0, 255].
 // models/skin.lobe:30
 float encode_sheen(float x)
@@ -138,7 +138,7 @@ float decode_sheen(float code)
 }
 
 // The code of tint_r: 8 codes over [0, 1], linear.
-// = round(7 * x / 1)
+// = round(7 * x)
 // Returns [0, 7].
 // models/skin.lobe:30
 float encode_tint_r(float x)
@@ -147,7 +147,7 @@ float encode_tint_r(float x)
 }
 
 // Bits 5..7 of d.b: tint_r, 8 codes over [0, 1], linear.
-// = 1 * code / 7
+// = code / 7
 // Expects code in [0, 7]. Returns [0, 1].
 // models/skin.lobe:30
 float decode_tint_r(float code)
@@ -156,7 +156,7 @@ float decode_tint_r(float code)
 }
 
 // The code of tint_g: 8 codes over [0, 1], linear.
-// = round(7 * x / 1)
+// = round(7 * x)
 // Returns [0, 7].
 // models/skin.lobe:30
 float encode_tint_g(float x)
@@ -165,7 +165,7 @@ float encode_tint_g(float x)
 }
 
 // Bits 2..4 of d.b: tint_g, 8 codes over [0, 1], linear.
-// = 1 * code / 7
+// = code / 7
 // Expects code in [0, 7]. Returns [0, 1].
 // models/skin.lobe:30
 float decode_tint_g(float code)
@@ -174,7 +174,7 @@ float decode_tint_g(float code)
 }
 
 // The code of tint_b: 4 codes over [0, 1], linear.
-// = round(3 * x / 1)
+// = round(3 * x)
 // Returns [0, 3].
 // models/skin.lobe:30
 float encode_tint_b(float x)
@@ -183,7 +183,7 @@ float encode_tint_b(float x)
 }
 
 // Bits 0..1 of d.b: tint_b, 4 codes over [0, 1], linear.
-// = 1 * code / 3
+// = code / 3
 // Expects code in [0, 3]. Returns [0, 1].
 // models/skin.lobe:30
 float decode_tint_b(float code)
