@@ -1,51 +1,16 @@
 #include "engine/edits.h"
 
+#include "engine/edit_words.h"
 #include "engine/lines.h"
-#include "engine/pattern.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <climits>
 #include <utility>
 
 namespace lobe::engine {
 namespace {
-
-std::string_view trimmed(std::string_view text)
-{
-    text.remove_prefix(indentation(text).size());
-    const auto last = text.find_last_not_of(" \t\r");
-    return text.substr(0, last == std::string_view::npos ? 0 : last + 1);
-}
-
-std::string_view take_word(std::string_view& rest)
-{
-    const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
-    rest = trimmed(rest.substr(word.size()));
-    return word;
-}
-
-bool is_name(std::string_view text)
-{
-    const auto fits = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               c == '_';
-    };
-    return !text.empty() && std::ranges::all_of(text, fits);
-}
-
-bool starts_as_number(std::string_view text)
-{
-    return !text.empty() && text.front() >= '0' && text.front() <= '9';
-}
-
-bool read_int(std::string_view text, int& value)
-{
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size() && value >= 0;
-}
 
 /// One line at a time. A statement that is wrong is reported and still takes its attributes, so
 /// that all errors come out at once.
@@ -118,17 +83,11 @@ private:
 
     bool question(std::string_view word, std::string_view rest)
     {
-        static constexpr std::pair<std::string_view, Query::Kind> kinds[] = {
-            {"version", Query::Kind::version}, {"probe", Query::Kind::probe},
-            {"read", Query::Kind::read},       {"count", Query::Kind::count},
-            {"assert", Query::Kind::demand},   {"unique", Query::Kind::unique},
-            {"at_most", Query::Kind::at_most}, {"equal", Query::Kind::equal}};
-        const auto* kind =
-            std::ranges::find(kinds, word, &std::pair<std::string_view, Query::Kind>::first);
-        if (kind == std::end(kinds)) return false;
+        const auto kind = query_kind(word);
+        if (!kind) return false;
         start(About::query);
         result_.list.queries.emplace_back();
-        query().kind = kind->second;
+        query().kind = *kind;
         query().line = line_;
         switch (query().kind) {
         case Query::Kind::at_most:
@@ -256,16 +215,8 @@ private:
 
     bool edit_attribute(std::string_view word, std::string_view rest)
     {
-        static constexpr std::pair<std::string_view, Action> actions[] = {
-            {"before", Action::before},
-            {"after", Action::after},
-            {"replace", Action::replace},
-            {"append", Action::append},
-            {"clone", Action::clone}};
-        const auto* action =
-            std::ranges::find(actions, word, &std::pair<std::string_view, Action>::first);
-        const bool is_action = action != std::end(actions);
-        if (!is_action && word != "at" && word != "last" && word != "flush") return false;
+        const auto action = action_of(word);
+        if (!action && word != "at" && word != "last" && word != "flush") return false;
         if (about_ != About::edit) {
             fail(fmt::format("`{}` stands behind `edit`", word));
         } else if (word == "at") {
@@ -280,7 +231,7 @@ private:
         } else {
             if (has_action_) fail("an edit has one action");
             has_action_ = true;
-            edit().action = action->second;
+            edit().action = *action;
         }
         return true;
     }
@@ -318,11 +269,7 @@ private:
                               (about_ == About::query && query().kind == Query::Kind::demand);
         if (!possible) return fail("`hits` stands behind `assert` or an edit");
         Anchor& anchor = *current_anchor();
-        const auto dots = rest.find("..");
-        const bool range = dots != std::string_view::npos;
-        if (!read_int(rest.substr(0, dots), anchor.least_hits) ||
-            !read_int(range ? rest.substr(dots + 2) : rest, anchor.most_hits) ||
-            anchor.most_hits < std::max(anchor.least_hits, 1))
+        if (!read_hits(rest, anchor.least_hits, anchor.most_hits))
             fail("this reads `hits 2` or `hits 0..1`");
     }
 
@@ -385,22 +332,9 @@ private:
     /// The groups of a pattern; -1 if it is none.
     int check_pattern(std::string_view text)
     {
-        if (text.empty()) {
-            fail("a regular expression is missing");
-            return -1;
-        }
-        const Substituted with_values =
-            substitute_quoted(text, [](std::string_view) { return "x"; });
-        const Pattern pattern{with_values.text};
-        if (!with_values.error.empty())
-            fail(with_values.error);
-        else if (!pattern.error().empty())
-            fail(fmt::format("regular expression: {}", pattern.error()));
-        else if (pattern.matches_nothing())
-            fail("this regular expression matches nothing at all, everywhere");
-        else
-            return pattern.groups();
-        return -1;
+        const PatternCheck checked = check_pattern_text(text);
+        if (!checked.error.empty()) fail(checked.error);
+        return checked.groups;
     }
 
     std::string_view name_of(std::string_view word)
@@ -411,14 +345,9 @@ private:
 
     std::string quoted(std::string_view& rest)
     {
-        const auto end = rest.find('"', 1);
-        if (!rest.starts_with('"') || end == std::string_view::npos || end == 1) {
-            fail("words for people in quotes are missing");
-            return {};
-        }
-        const std::string words{rest.substr(1, end - 1)};
-        rest = trimmed(rest.substr(end + 1));
-        return words;
+        const auto words = take_quoted(rest);
+        if (!words) fail("words for people in quotes are missing");
+        return words.value_or("");
     }
 
     std::string whole_path(std::string_view path)
@@ -469,18 +398,6 @@ private:
 };
 
 }  // namespace
-
-std::optional<Version> parse_version(std::string_view text)
-{
-    const auto dot = text.find('.');
-    if (dot == std::string_view::npos) return std::nullopt;
-    const std::string_view minor = text.substr(dot + 1);
-    Version version;
-    if (!read_int(text.substr(0, dot), version.major) ||
-        !read_int(minor.substr(0, minor.find('.')), version.minor))
-        return std::nullopt;
-    return version;
-}
 
 ParsedEdits parse_edits(std::string_view text) { return Parser{}.run(text); }
 

@@ -147,7 +147,7 @@ edit enumerator "the model in C++"
 file Source/Pass.cpp
 edit uses "every pass"
     scope ^void Second\(
-    at \{\s*M_Lit\s*(\})
+    at \{\s*M_Lit[^}]*?(\s*\})
     hits 2
     append
     | , M_${Model}
