@@ -48,8 +48,7 @@ std::vector<std::uint32_t> read_parameters(const Program& program, const ir::Mod
         for (const ir::Input& input : program.functions[output.function.index].inputs)
             if (input.origin == ir::Origin::parameter) read.push_back(input.which);
     std::ranges::sort(read);
-    const auto repeated = std::ranges::unique(read);
-    read.erase(repeated.begin(), repeated.end());
+    read.erase(std::unique(read.begin(), read.end()), read.end());
     return read;
 }
 
