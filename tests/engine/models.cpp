@@ -1,5 +1,6 @@
 #include "engine/models.h"
 
+#include "base/render.h"
 #include "compile.h"
 
 #include <catch2/catch.hpp>
@@ -17,6 +18,22 @@ struct Compiled {
     ir::Module module;
 };
 
+/// The text without its packings and engine blocks: these tests have their own.
+std::string without_blocks(std::string text)
+{
+    for (const std::string word : {"\npacking ", "\nengine "})
+        for (;;) {
+            std::size_t at = text.find(word);
+            if (at == std::string::npos) break;
+            const std::size_t end = text.find("\n}\n", at);
+            REQUIRE(end != std::string::npos);
+            while (text.compare(text.rfind('\n', at - 1), 4, "\n///") == 0)
+                at = text.rfind('\n', at - 1);
+            text.erase(at + 1, end + 2 - at);
+        }
+    return text;
+}
+
 /// As the front leaves it: packings are added before passes run.
 Compiled callisto()
 {
@@ -27,7 +44,7 @@ Compiled callisto()
         std::ifstream file{"../" + path};
         std::ostringstream text;
         text << file.rdbuf();
-        return all.add(path, text.str());
+        return all.add(path, without_blocks(text.str()));
     };
     const std::uint32_t root = add(result.sources, "callisto");
     const check::Loader loader = [&](Sources& all, std::string_view module,
@@ -35,6 +52,7 @@ Compiled callisto()
         return add(all, module);
     };
     auto module = front(result.sources, root, loader, diagnostics);
+    INFO(render_text(result.sources, diagnostics));
     REQUIRE(module.has_value());
     result.module = std::move(*module);
     return result;
@@ -182,9 +200,6 @@ Wished wished(const Wish& wish)
 {
     Compiled compiled = callisto();
     ir::Module& module = compiled.module;
-    // The model's own blocks, if it has some, are another test's.
-    module.packings.clear();
-    module.engines.clear();
     module.gbuffers = {gbuffer()};
     module.packings.push_back(packing(module, module.gbuffers.front(), wish));
     module.engines.push_back(engine(module, module.gbuffers.front(), wish));
