@@ -74,6 +74,9 @@ void report_collisions(const Program& program, Diagnostics& diagnostics)
     const File& root = *program.files.back();
     for (const auto& [name, declared] : root.names)
         if (!declared.imported) taken.try_emplace(name, declared.span);
+    for (const ir::Function& function : program.functions)
+        if (function.module == root.name && function.kind == ir::Function::Kind::storage)
+            taken.try_emplace(function.name, function.span);
 
     const auto enter = [&](const std::string& name, const Span& span, std::string_view what,
                            const std::string& module) {

@@ -188,11 +188,6 @@ private:
 
     bool fits_sign()
     {
-        if (field_.bits < 2) {
-            refuse("one bit has no room for a sign", {clause_.storage.span, ""}, {},
-                   {"store it as `unorm 1`, or in two bits or more"});
-            return false;
-        }
         if (field_.range.low == -field_.range.high) return true;
         refuse(
             fmt::format("a snorm field is as wide below 0 as above, and {} is not",
@@ -408,6 +403,16 @@ LoweredCode lower_code(Program& program, std::size_t index, const Sources& sourc
                                                    code.node->name.text),
                             .primary = {code.node->name.span, ""},
                             .helps = {"give it another name"}});
+    for (const std::string_view half : {"encode", "decode"}) {
+        const auto taken = file.names.find(fmt::format("{}_{}", code.node->name.text, half));
+        if (taken == file.names.end() || taken->second.kind == NameKind::lost) continue;
+        diagnostics.report({.code = Code::duplicate_name,
+                            .message = fmt::format("`{}` is what the code `{}` calls its own",
+                                                   taken->first, code.node->name.text),
+                            .primary = {taken->second.span, ""},
+                            .secondary = {{code.node->name.span, "the code"}},
+                            .helps = {"give it another name"}});
+    }
     const Signature value = value_signature(file, *code.node, diagnostics);
     Signature stored;
     stored.broken = value.broken;
