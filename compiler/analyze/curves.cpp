@@ -71,6 +71,12 @@ std::vector<CurvePoint> candidates(const Subject& subject, const Placed& placed,
         code.pivot = pivot;
         consider(false, code);
     }
+    // Whole multiples are what keeps low + 1; the largest that reaches the high end.
+    if (size > 1) {
+        ir::Code code = code_like(Kind::log2, "log2");
+        code.pivot = static_cast<int>(std::floor(last / std::log2(1 + size)));
+        if (code.pivot >= 1) consider(false, code);
+    }
     for (const ir::Code& code : placed.declared) consider(false, code);
     return found;
 }
@@ -163,7 +169,7 @@ Subject subject_of(const ir::Module& module, const ir::Packing& from, std::vecto
 }
 
 std::vector<FittedCurve> fit_curves(const Subject& subject, const std::vector<std::size_t>& which,
-                                    int most_bits, unsigned jobs)
+                                    BitRange range, unsigned jobs)
 {
     struct Look {
         std::size_t curve = 0;  ///< index into `which`
@@ -171,7 +177,7 @@ std::vector<FittedCurve> fit_curves(const Subject& subject, const std::vector<st
     };
     std::vector<Look> looks;
     for (std::size_t curve = 0; curve < which.size(); ++curve)
-        for (int bits = 1; bits <= most_bits; ++bits)
+        for (int bits = range.least; bits <= range.most; ++bits)
             for (const CurvePoint& point : candidates(subject, subject.placed[which[curve]], bits))
                 looks.push_back({curve, {point, {}, {}}});
 

@@ -44,8 +44,12 @@ using FittedCurve = std::vector<Fitted>;  ///< by bits, each once
 /// A field of a parameter's component, without a place.
 ir::Field field_of(const Placed& placed, int component, const CurvePoint& point);
 
-/// The curves of these placed parameters (indices), for up to `most_bits` bits each.
+/// The curves of these placed parameters (indices), for so many bits each.
+struct BitRange {
+    int least = 1;
+    int most = 0;
+};
 std::vector<FittedCurve> fit_curves(const Subject& subject, const std::vector<std::size_t>& which,
-                                    int most_bits, unsigned jobs);
+                                    BitRange bits, unsigned jobs);
 
 }  // namespace lobe::analyze

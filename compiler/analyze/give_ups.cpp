@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
+#include <optional>
 
 namespace lobe::analyze {
 namespace {
@@ -12,6 +14,7 @@ namespace {
 /// Less of an improvement is not worth a line.
 constexpr double worthwhile = 0.95;
 constexpr std::size_t most_told = 8;
+constexpr std::size_t most_narrowed = 4;  ///< parameters
 
 std::string percent(double error) { return fmt::format("{:.3g} %", error * 100); }
 
@@ -80,41 +83,74 @@ double nearer(double from, double end)
     return rounded(ratio > 16 ? from * std::sqrt(ratio) : from + (end - from) / 2);
 }
 
+/// The placed parameters by their error alone, largest first; where nothing fits, by the bits that
+/// they need.
+std::vector<std::size_t> costly_first(const Subject& subject,
+                                      const std::vector<FittedCurve>& curves, const Best& best)
+{
+    std::vector<std::pair<double, std::size_t>> ranked;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        double cost = std::numeric_limits<double>::infinity();
+        if (best.shared != nullptr)
+            cost = curves[i][best.shared->options[i]].point.error;
+        else if (!curves[i].empty())
+            cost = bits_of(subject, i, curves[i].front());
+        ranked.emplace_back(-cost, i);
+    }
+    std::ranges::sort(ranked);
+    std::vector<std::size_t> order;
+    for (const auto& [cost, i] : ranked) order.push_back(i);
+    return order;
+}
+
+/// Half of the range at one end, if the default and what must be exact stay inside.
+std::optional<ir::Range> halved(const ir::Module& module, const Subject& subject,
+                                const Placed& placed, bool upper)
+{
+    const auto& standard = module.parameters[placed.parameter].default_value;
+    const auto [least, most] = std::ranges::minmax(standard);
+    ir::Range range = placed.range;
+    if (upper)
+        range.high = nearer(most, range.high);
+    else
+        range.low = nearer(least, range.low);
+    if (range == placed.range || !(range.low < range.high)) return std::nullopt;
+    if (least < range.low || most > range.high) return std::nullopt;
+    for (const ir::ExactRequirement& required : subject.packing.exact)
+        if (required.parameter == placed.parameter &&
+            (required.value < range.low || required.value > range.high))
+            return std::nullopt;
+    return range;
+}
+
 void add_narrower_ranges(const ir::Module& module, const Subject& subject,
                          const std::vector<FittedCurve>& curves, const SuggestOptions& options,
-                         int most_bits, std::deque<Alternative>& out)
+                         const Best& best, std::deque<Alternative>& out)
 {
-    for (std::size_t i = 0; i < subject.placed.size(); ++i) {
+    std::vector<std::size_t> order = costly_first(subject, curves, best);
+    if (order.size() > most_narrowed) order.resize(most_narrowed);
+    for (const std::size_t i : order) {
         const Placed& placed = subject.placed[i];
-        const ir::Parameter& parameter = module.parameters[placed.parameter];
-        const auto [least, most] = std::ranges::minmax(parameter.default_value);
         for (const bool upper : {false, true}) {
-            ir::Range range = placed.range;
-            if (upper)
-                range.high = nearer(most, range.high);
-            else
-                range.low = nearer(least, range.low);
-            if (range == placed.range || !(range.low < range.high)) continue;
-            const bool keeps = std::ranges::all_of(
-                subject.packing.exact, [&](const ir::ExactRequirement& required) {
-                    return required.parameter != placed.parameter ||
-                           (range.low <= required.value && required.value <= range.high);
-                });
-            if (!keeps || least < range.low || most > range.high) continue;
-            std::vector<Placed> all = subject.placed;
-            all[i].range = range;
-            Alternative narrower{fmt::format("`{} in [{}, {}]` instead of [{}, {}]", parameter.name,
-                                             range.low, range.high, placed.range.low,
-                                             placed.range.high),
+            const auto range = halved(module, subject, placed, upper);
+            if (!range) continue;
+            Alternative narrower{fmt::format("`{} in [{}, {}]` instead of [{}, {}]",
+                                             module.parameters[placed.parameter].name, range->low,
+                                             range->high, placed.range.low, placed.range.high),
                                  subject, curves, bits_in(options.room)};
-            narrower.subject.placed[i].range = range;
+            narrower.subject.placed[i].range = *range;
             for (const std::size_t at : placed.coordinates) {
                 Coordinate& coordinate = narrower.subject.box.coordinates[at];
-                coordinate.low = std::max(coordinate.low, static_cast<float>(range.low));
-                coordinate.high = std::min(coordinate.high, static_cast<float>(range.high));
+                coordinate.low = std::max(coordinate.low, static_cast<float>(range->low));
+                coordinate.high = std::min(coordinate.high, static_cast<float>(range->high));
             }
-            narrower.curves[i] =
-                fit_curves(narrower.subject, {i}, most_bits, options.radiance.jobs)[0];
+            // Around what it has now: one bit less, two more.
+            BitRange bits{1, best.most_bits};
+            if (best.shared != nullptr) {
+                const int now = curves[i][best.shared->options[i]].point.bits;
+                bits = {std::max(1, now - 1), std::min(now + 2, best.most_bits)};
+            }
+            narrower.curves[i] = fit_curves(narrower.subject, {i}, bits, options.radiance.jobs)[0];
             if (!narrower.curves[i].empty()) out.push_back(std::move(narrower));
         }
     }
@@ -146,12 +182,11 @@ void add_dropped_parameters(const ir::Module& module, const Subject& subject,
 
 std::vector<std::string> give_ups(const ir::Module& module, const Subject& subject,
                                   const std::vector<FittedCurve>& curves,
-                                  const SuggestOptions& options, int most_bits,
-                                  std::optional<double> error)
+                                  const SuggestOptions& options, const Best& best)
 {
     std::deque<Alternative> alternatives;
     add_lent_channels(module, subject, curves, options, alternatives);
-    add_narrower_ranges(module, subject, curves, options, most_bits, alternatives);
+    add_narrower_ranges(module, subject, curves, options, best, alternatives);
     add_dropped_parameters(module, subject, curves, options, alternatives);
 
     std::vector<ShareQuestion> questions;
@@ -163,7 +198,7 @@ std::vector<std::string> give_ups(const ir::Module& module, const Subject& subje
     for (std::size_t i = 0; i < answers.size(); ++i) {
         if (!answers[i]) continue;
         const double reached = answers[i]->measured;
-        if (error && reached > *error * worthwhile) continue;
+        if (best.shared != nullptr && reached > best.shared->measured * worthwhile) continue;
         ranked.emplace_back(reached, fmt::format("{}: {}", alternatives[i].what, percent(reached)));
     }
     std::ranges::stable_sort(ranked, {}, &std::pair<double, std::string>::first);

@@ -8,13 +8,18 @@
 
 namespace lobe::analyze {
 
-/// Alternatives to the best layout in the room, each with the worst error that it would have, best
-/// first: channels whose contents are lent, half the range of a parameter at either end, a
-/// parameter left at its default. Those that are not better than `error` are left out; without an
-/// `error` nothing fits and all that would are named.
+/// The best layout in the room, if anything fits.
+struct Best {
+    const Shared* shared = nullptr;
+    int most_bits = 0;  ///< of one field
+};
+
+/// Alternatives to it, each with the worst error that it would have, best first: channels whose
+/// contents are lent, half the range of a parameter at either end (of those that are worst alone),
+/// a parameter left at its default. Those that are hardly better are left out; where nothing fits,
+/// all that would are named.
 std::vector<std::string> give_ups(const ir::Module& module, const Subject& subject,
                                   const std::vector<FittedCurve>& curves,
-                                  const SuggestOptions& options, int most_bits,
-                                  std::optional<double> error);
+                                  const SuggestOptions& options, const Best& best);
 
 }  // namespace lobe::analyze

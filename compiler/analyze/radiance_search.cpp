@@ -155,15 +155,19 @@ Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<flo
            int rounds, std::uint64_t key)
 {
     constexpr std::size_t rows = 128;  // one block of the tape
+    constexpr std::uint32_t coarsest = 4, finest = 24;
+    constexpr double progress = 1 + 0x1p-10;
     RadianceMeter meter{box, rows};
     Random random{key};
     Peak peak{-1, start};
-    for (int round = 0; round < rounds; ++round) {
+    // Steps reach 2^-scale of the box at least. They become finer while nothing better is found.
+    std::uint32_t scale = coarsest;
+    for (int round = 0; round < rounds && scale <= finest; ++round) {
         meter.set_all(peak.point);
-        const double finest = 4 + 16.0 * round / rounds;
         for (std::size_t row = 1; row < rows; ++row)
             for (bool more = true; more; more = random.below(8) < 3) {
-                const double reach = exp2_one(-finest * random.unit());
+                const auto halvings = static_cast<int>(random.below(scale));
+                const double reach = std::ldexp(0.5 + 0.5 * random.unit(), -halvings);
                 if (box.light && (box.values.empty() || random.below(3) == 0)) {
                     move_directions(random, box, meter, row, reach);
                 } else if (!box.values.empty()) {
@@ -177,6 +181,10 @@ Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<flo
         meter.light();
         const std::vector<double>& errors = meter.compare(stored);
         const auto best = std::ranges::max_element(errors);
+        if (*best > peak.error * progress)
+            scale = std::max(coarsest, scale - 1);
+        else
+            ++scale;
         if (*best > peak.error)
             peak = {*best, meter.point(static_cast<std::size_t>(best - errors.begin()))};
     }

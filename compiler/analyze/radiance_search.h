@@ -24,8 +24,8 @@ struct Peak {
     std::vector<float> point;
 };
 
-/// From a point uphill: `rounds` times the best of 127 neighbors, near and far, with the steps
-/// becoming smaller. Directions stay unit and above the horizon, values in the box.
+/// From a point uphill: up to `rounds` times the best of 127 neighbors, near and far, and nearer
+/// while there is nothing better. Directions stay unit and above the horizon, values in the box.
 Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& start,
            int rounds, std::uint64_t key);
 

@@ -9,7 +9,22 @@
 namespace lobe::analyze {
 namespace {
 
-constexpr Effort whole_effort{4096, 24, 40};
+constexpr Effort whole_effort{4096, 24, 48};
+constexpr int most_moves = 4;
+constexpr double worthwhile = 0.98;  ///< less of an improvement is within what searches differ by
+
+/// Bits and prediction of a choice of options; not measured.
+Shared summed(const Subject& subject, const std::vector<FittedCurve>& curves,
+              std::vector<std::size_t> options)
+{
+    Shared shared{std::move(options), 0, 0, -1};
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        const Fitted& fitted = curves[i][shared.options[i]];
+        shared.bits += bits_of(subject, i, fitted);
+        shared.predicted += fitted.point.error;
+    }
+    return shared;
+}
 
 }  // namespace
 
@@ -46,13 +61,7 @@ std::vector<Shared> shares_of(const Subject& subject, const std::vector<FittedCu
         if (!chosen) continue;
         const auto same = [&](const Shared& other) { return other.options == *chosen; };
         if (std::ranges::any_of(found, same)) continue;
-        Shared shared{*chosen, 0, 0, -1};
-        for (std::size_t i = 0; i < curves.size(); ++i) {
-            const Fitted& fitted = curves[i][shared.options[i]];
-            shared.bits += bits_of(subject, i, fitted);
-            shared.predicted += fitted.point.error;
-        }
-        found.push_back(std::move(shared));
+        found.push_back(summed(subject, curves, *chosen));
     }
     return found;
 }
@@ -93,6 +102,33 @@ std::vector<std::optional<Shared>> best_shares(const std::vector<ShareQuestion>&
         if (!so_far || task.shared.measured < so_far->measured) so_far = std::move(task.shared);
     }
     return best;
+}
+
+Shared improved(const Subject& subject, const std::vector<FittedCurve>& curves, Shared shared,
+                unsigned jobs)
+{
+    const int bits = shared.bits;
+    for (int move = 0; move < most_moves; ++move) {
+        std::vector<Shared> tried;
+        for (std::size_t more = 0; more < curves.size(); ++more)
+            for (std::size_t less = 0; less < curves.size(); ++less) {
+                if (more == less || shared.options[less] == 0 ||
+                    shared.options[more] + 1 == curves[more].size())
+                    continue;
+                std::vector<std::size_t> options = shared.options;
+                ++options[more];
+                --options[less];
+                Shared moved = summed(subject, curves, std::move(options));
+                if (moved.bits <= bits) tried.push_back(std::move(moved));
+            }
+        for_each_task(tried.size(), jobs, [&](std::size_t i) {
+            tried[i].measured = measure(subject, curves, tried[i]);
+        });
+        const auto best = std::ranges::min_element(tried, {}, &Shared::measured);
+        if (best == tried.end() || best->measured >= shared.measured * worthwhile) break;
+        shared = *best;
+    }
+    return shared;
 }
 
 }  // namespace lobe::analyze

@@ -41,4 +41,9 @@ struct ShareQuestion {
 std::vector<std::optional<Shared>> best_shares(const std::vector<ShareQuestion>& questions,
                                                unsigned jobs);
 
+/// A better layout near one, as measured: a bit from one parameter to another, as long as that
+/// helps. Errors do not quite add up, as the sums above take them to.
+Shared improved(const Subject& subject, const std::vector<FittedCurve>& curves, Shared shared,
+                unsigned jobs);
+
 }  // namespace lobe::analyze

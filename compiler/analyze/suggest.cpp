@@ -95,30 +95,47 @@ PackingErrors linear_errors(const ir::Module& module, const Subject& subject,
     return packing_errors(legal, legal.packings.back(), options);
 }
 
-void add_packing(Suggestion& out, ir::Packing packing, const RadianceOptions& options)
+/// Module, errors and text for one choice of options.
+void take(Suggestion& out, const ir::Module& module, const Subject& subject,
+          const std::vector<FittedCurve>& curves, const Shared& shared,
+          const SuggestOptions& options)
 {
+    ir::Packing packing = laid_out(subject, curves, shared, options.room);
+    out.module = module;
     ir::build_functions(out.module, packing, *out.module.find_gbuffer(packing.gbuffer));
     out.module.packings.push_back(packing);
     const ir::Module legal = optimize::optimize(out.module);
-    out.errors = packing_errors(legal, legal.packings.back(), options);
+    out.errors = packing_errors(legal, legal.packings.back(), options.radiance);
+    ir::Packing& placed = out.module.packings.back();
+    if (placed.radiance_limit && out.errors.whole.worst >= *placed.radiance_limit)
+        placed.radiance_limit.reset();
 
     std::vector<std::string> remarks;
-    for (const ir::Field& field : packing.fields)
+    for (const ir::Field& field : placed.fields)
         for (const PackingErrors::OfParameter& one : out.errors.parameters)
             if (one.parameter == field.parameter)
                 remarks.push_back(field.component == 0 ? percent(one.error.worst) : "");
-    out.text = packing_text(out.module, packing, remarks);
+    out.text = packing_text(out.module, placed, remarks);
 }
 
-/// The layout to suggest: the smallest that is good enough, or else the best.
-const Shared* choose(const std::vector<Shared>& trade, std::optional<double> error)
+/// Takes the smallest layout that stays below the error, or else the best. Returns the one taken;
+/// its measured error is then that of the whole measurement.
+const Shared* take_best(Suggestion& out, const ir::Module& module, const Subject& subject,
+                        const std::vector<FittedCurve>& curves, std::vector<Shared>& trade,
+                        const SuggestOptions& options)
 {
-    const Shared* best = nullptr;
-    for (const Shared& shared : trade) {
-        if (error && shared.measured < *error) return &shared;
-        if (best == nullptr || shared.measured < best->measured) best = &shared;
-    }
-    return best;
+    const auto taken = [&](Shared& shared) {
+        take(out, module, subject, curves, shared, options);
+        shared.measured = out.errors.whole.worst;
+        return options.error && shared.measured < *options.error;
+    };
+    for (Shared& shared : trade)
+        if (options.error && shared.measured < *options.error && taken(shared)) return &shared;
+    const auto best = std::ranges::min_element(trade, {}, &Shared::measured);
+    if (best == trade.end()) return nullptr;
+    *best = improved(subject, curves, *best, options.radiance.jobs);
+    taken(*best);
+    return &*best;
 }
 
 std::string needs_too_much(const ir::Module& module, const Subject& subject,
@@ -155,7 +172,7 @@ Suggestion suggest(const ir::Module& module, std::size_t packing, const SuggestO
 
     std::vector<std::size_t> everything(subject.placed.size());
     for (std::size_t i = 0; i < everything.size(); ++i) everything[i] = i;
-    const auto curves = fit_curves(subject, everything, most_field_bits, jobs);
+    const auto curves = fit_curves(subject, everything, {1, most_field_bits}, jobs);
     for (std::size_t i = 0; i < curves.size(); ++i) {
         Curve& curve = out.curves.emplace_back();
         curve.parameter = subject.placed[i].parameter;
@@ -172,34 +189,27 @@ Suggestion suggest(const ir::Module& module, std::size_t packing, const SuggestO
         // With more bits than are of use, the same again.
         if (!answer || (!trade.empty() && answer->bits <= trade.back().bits)) continue;
         trade.push_back(*answer);
-        TradePoint& point = out.trade.emplace_back();
-        point.bits = answer->bits;
-        point.predicted = answer->predicted;
-        point.measured = answer->measured;
-        for (std::size_t i = 0; i < curves.size(); ++i)
-            point.shares.push_back(bits_of(subject, i, curves[i][answer->options[i]]));
     }
     progress(2);
 
-    const Shared* chosen = choose(trade, options.error);
+    const Shared* chosen = take_best(out, module, subject, curves, trade, options);
     if (chosen != nullptr) {
-        ir::Packing found = laid_out(subject, curves, *chosen, options.room);
-        if (found.radiance_limit && chosen->measured >= *found.radiance_limit)
-            found.radiance_limit.reset();
-        add_packing(out, std::move(found), options.radiance);
         out.linear = linear_errors(module, subject, options.radiance);
-        out.found = !options.error || out.errors.whole.worst < *options.error;
+        out.found = !options.error || chosen->measured < *options.error;
         if (!out.found)
-            out.why_not =
-                fmt::format("no layout in {} bits stays below {}; the best reaches {}", bits,
-                            percent(*options.error), percent(out.errors.whole.worst));
+            out.why_not = fmt::format("no layout in {} bits stays below {}; the best reaches {}",
+                                      bits, percent(*options.error), percent(chosen->measured));
     } else {
         out.why_not = needs_too_much(module, subject, curves, bits);
     }
+    for (const Shared& shared : trade) {
+        TradePoint& point = out.trade.emplace_back();
+        point = {shared.bits, {}, shared.predicted, shared.measured};
+        for (std::size_t i = 0; i < curves.size(); ++i)
+            point.shares.push_back(bits_of(subject, i, curves[i][shared.options[i]]));
+    }
     progress(3);
-    const auto error =
-        chosen != nullptr ? std::optional{out.errors.whole.worst} : std::optional<double>{};
-    out.give_ups = give_ups(module, subject, curves, options, most_field_bits, error);
+    out.give_ups = give_ups(module, subject, curves, options, {chosen, most_field_bits});
     progress(stages);
     return out;
 }

@@ -4,8 +4,9 @@
 // Each parameter gets a curve, its worst error by bits, over the codes in which its default (and
 // the values it must keep exactly) decode without rounding. The bits are shared out by an exact
 // search over the curves (which take the errors of parameters to add up), and the layouts that
-// come out are measured as a whole. So the shares are optimal under that assumption, and the
-// error that is printed is the measured one.
+// come out are measured as a whole. So the shares are optimal under that assumption; the layout
+// that is suggested is then improved bit by bit where measuring disagrees with it, and the error
+// that is printed is the measured one.
 #pragma once
 
 #include "analyze/radiance.h"
@@ -47,8 +48,8 @@ struct TradePoint {
 
 struct Suggestion {
     ir::Module module;  ///< the module, with the suggested packing as its last one, functions built
-    bool found = false;
-    std::string why_not;                ///< when nothing fits: what would have to be given up
+    bool found = false;   ///< there is a layout, and it stays below the error asked for
+    std::string why_not;  ///< when not: why. Then the best layout there is, if any
     std::vector<std::string> give_ups;  ///< each with what it would gain, best first
     std::vector<Curve> curves;
     std::vector<TradePoint> trade;  ///< by bits, up to the room there is
