@@ -88,10 +88,11 @@ std::vector<double> kept_values(const Module& module, const Packing& packing, co
 
 int channel_bits(const Packing& packing, const Channel& channel)
 {
-    const auto supported = std::ranges::find(packing.supported, true);
-    const auto index = supported == packing.supported.end() ? std::ptrdiff_t{0}
-                                                            : supported - packing.supported.begin();
-    return channel.formats[static_cast<std::size_t>(index)].bits;
+    int bits = 0;
+    for (std::size_t i = 0; i < packing.supported.size(); ++i)
+        if (packing.supported[i])
+            bits = bits == 0 ? channel.formats[i].bits : std::min(bits, channel.formats[i].bits);
+    return bits == 0 ? channel.formats[0].bits : bits;
 }
 
 }  // namespace lobe::ir

@@ -144,7 +144,8 @@ std::optional<int> code_of(const Field& field, double value);
 /// exact, for power and log2 low + 1, for snorm 0, its anchors. In this order, each once.
 std::vector<double> kept_values(const Module& module, const Packing& packing, const Field& field);
 
-/// How many bits a channel has where the packing has to work.
+/// The fewest bits that a channel has where the packing has to work: where it has more, a unorm
+/// keeps the codes of these.
 int channel_bits(const Packing& packing, const Channel& channel);
 
 /// Adds encode, decode, pack and unpack of every field to the module's functions, in that order,
