@@ -35,16 +35,16 @@ std::string without_blocks(std::string text)
 }
 
 /// As the front leaves it: packings are added before passes run.
-Compiled callisto()
+Compiled callisto(bool own_blocks)
 {
     Compiled result;
     Diagnostics diagnostics;
-    const auto add = [](Sources& all, std::string_view module) {
+    const auto add = [&](Sources& all, std::string_view module) {
         const std::string path = "models/" + std::string{module} + ".lobe";
         std::ifstream file{"../" + path};
         std::ostringstream text;
         text << file.rdbuf();
-        return all.add(path, without_blocks(text.str()));
+        return all.add(path, own_blocks ? text.str() : without_blocks(text.str()));
     };
     const std::uint32_t root = add(result.sources, "callisto");
     const check::Loader loader = [&](Sources& all, std::string_view module,
@@ -151,6 +151,24 @@ ir::Engine engine(const ir::Module& module, const ir::Gbuffer& gbuffer, const Wi
     return result;
 }
 
+/// What its engine block and the packing of it say.
+Wished finished(const Compiled& compiled)
+{
+    Wished result{middle(compiled.module), {}, {}};
+    REQUIRE(!result.module.engines.empty());
+    const ir::Engine& block = result.module.engines.front();
+    const auto packing = emit::packing_of(result.module, block);
+    REQUIRE(packing.has_value());
+    const auto values = emit::engine_values(result.module, block, *packing);
+    REQUIRE(values.has_value());
+    result.values = *values;
+    result.request = {values->model, values->values, values->words, {}};
+    for (const emit::Artifact& file :
+         back(result.module, compiled.sources, {emit::find_target("ue4")}))
+        result.request.files.emplace_back(file.path.substr(file.path.rfind('/') + 1), file.text);
+    return result;
+}
+
 }  // namespace
 
 Wish plain_wish()
@@ -198,22 +216,16 @@ Wish color_wish()
 
 Wished wished(const Wish& wish)
 {
-    Compiled compiled = callisto();
+    Compiled compiled = callisto(false);
     ir::Module& module = compiled.module;
     module.gbuffers = {gbuffer()};
     module.packings.push_back(packing(module, module.gbuffers.front(), wish));
     module.engines.push_back(engine(module, module.gbuffers.front(), wish));
     ir::build_functions(module, module.packings.front(), module.gbuffers.front());
 
-    Wished result{middle(module), {}, {}};
-    const auto values = emit::engine_values(result.module, result.module.engines.front(), 0);
-    REQUIRE(values.has_value());
-    result.values = *values;
-    result.request = {values->model, values->values, values->words, {}};
-    for (const emit::Artifact& file :
-         back(result.module, compiled.sources, {emit::find_target("ue4")}))
-        result.request.files.emplace_back(file.path.substr(file.path.rfind('/') + 1), file.text);
-    return result;
+    return finished(compiled);
 }
+
+Wished shipped() { return finished(callisto(true)); }
 
 }  // namespace lobe::engine

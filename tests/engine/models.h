@@ -42,5 +42,7 @@ struct Wished {
     Request request;
 };
 Wished wished(const Wish& wish);
+/// models/callisto.lobe as it is.
+Wished shipped();
 
 }  // namespace lobe::engine

@@ -134,6 +134,13 @@ TEST_CASE("the patched shaders compile")
     check(engine_tree(version), pins, {});
 }
 
+TEST_CASE("the shipped model's shaders compile")
+{
+    const std::string version = GENERATE("4.25", "4.26", "4.27");
+    const Files done = patched(engine_tree(version), shipped().request);
+    CHECK(complaints(done, {model_defines, ""}) == "");
+}
+
 TEST_CASE("a shader that lacks what it calls is refused")
 {
     Files done = patched(engine_tree("4.27"), wished(plain_wish()).request);

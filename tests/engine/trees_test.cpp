@@ -126,6 +126,16 @@ TEST_CASE("the files that a patch touches")
     CHECK(changes(patch(engine_tree("4.27"), carrier()), shaders + "AnisotropyPassShader.usf"));
 }
 
+TEST_CASE("the model that ships goes into every version")
+{
+    const std::string version = GENERATE("4.25", "4.26", "4.27");
+    const Files tree = engine_tree(version);
+    const Request request = shipped().request;
+    const Files done = patched(tree, request);
+    CHECK(patch(done, request).changes.empty());
+    CHECK(applied(done, plan_revert(tree_of(done), shipped_list(), request)) == tree);
+}
+
 TEST_CASE("a model without a node has none of its files")
 {
     Wish wish = plain_wish();
@@ -241,9 +251,9 @@ TEST_CASE("what stands in the way is named")
         const Files taken =
             with(tree, common, number, "#define SHADINGMODELID_CALLISTO 11\n" + number);
         CHECK(has(refused(taken, plain()), "the tree has a shading model of this name"));
-        CHECK(
-            has(refused(with(tree, types, "	MSM_Cloth	", "	MSM_Callisto	"), plain()),
-                "the engine has a shading model of this name"));
+        CHECK(has(
+            refused(with(tree, types, "	MSM_Cloth	", "	MSM_Callisto	"), plain()),
+            "the engine has a shading model of this name"));
     }
     SECTION("the mask holds fewer")
     {

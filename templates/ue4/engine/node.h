@@ -8,7 +8,7 @@
 #include "Materials/MaterialExpressionCustomOutput.h"
 #include "MaterialExpression${Node}.generated.h"
 
-/** Parameters of the ${display_text} shading model that no pin of the material feeds. */
+// Parameters of the shading model ${display_text} that no pin of the material feeds.
 UCLASS(MinimalAPI, collapsecategories, hidecategories = Object)
 class UMaterialExpression${Node} : public UMaterialExpressionCustomOutput
 {
