@@ -14,10 +14,12 @@ bool is_operator(std::string_view line, std::size_t at)
 
 /// Where to break, or npos: the index of the space that the break replaces. The fewest open
 /// parentheses win, then the last place; a place in the first half only where there is no other.
-/// The first piece of a line is not broken before its first parenthesis or `=`.
+/// The first piece of a line is not broken before its first parenthesis or `=`; where it has no
+/// other place, it is broken behind the `=`.
 std::size_t break_before(std::string_view line, std::size_t room, bool first)
 {
     std::size_t best = std::string_view::npos;
+    std::size_t assignment = std::string_view::npos;
     int best_depth = 0;
     int depth = 0;
     bool inside = !first;
@@ -29,6 +31,7 @@ std::size_t break_before(std::string_view line, std::size_t room, bool first)
             inside = inside || c == '(' || c == '=';
             continue;
         }
+        if (first && depth == 0 && i >= 2 && line.substr(i - 2, 2) == " =") assignment = i;
         if (!inside || (line[i - 1] != ',' && !is_operator(line, i + 1))) continue;
         const bool early = best != std::string_view::npos && best < room / 2;
         if (best == std::string_view::npos || depth <= best_depth || early) {
@@ -36,7 +39,7 @@ std::size_t break_before(std::string_view line, std::size_t room, bool first)
             best_depth = depth;
         }
     }
-    return best;
+    return best != std::string_view::npos ? best : assignment;
 }
 
 /// The index of the next blank or line end, or npos. (find_first_of searches its set per letter.)

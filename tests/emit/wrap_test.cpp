@@ -43,6 +43,16 @@ TEST_CASE("an operator starts the next line, and a type keeps its name", "[emit]
     CHECK(wrap(a + " " + b + ";", 0, "  ") == a + " " + b + ";");
 }
 
+TEST_CASE("an assignment without another place is broken behind its sign", "[emit][wrap]")
+{
+    const std::string name(60, 'n');
+    CHECK(wrap("const float Code = " + name + "( " + name + " );", 4, "\t") ==
+          "const float Code =\n\t" + name + "( " + name + " );");
+    // Arguments come first.
+    CHECK(wrap("const float Code = " + name + "( x, " + name + " );", 4, "\t") ==
+          "const float Code = " + name + "( x,\n\t" + name + " );");
+}
+
 TEST_CASE("a minus sign belongs to its number", "[emit][wrap]")
 {
     const std::string a(90, 'a');

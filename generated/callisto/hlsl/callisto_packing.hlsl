@@ -111,7 +111,7 @@ float decode_retroreflection_falloff(float code)
 }
 
 // The code of smooth_terminator: 15 codes over [-1, 1], linear.
-// = round(7 + 7 * x / 1)
+// = round(7 + 7 * x)
 // Returns [0, 14].
 // models/callisto.lobe:202
 float encode_smooth_terminator(float x)
@@ -120,7 +120,7 @@ float encode_smooth_terminator(float x)
 }
 
 // Bits 0..1 of d.b, bits 6..7 of d.a: smooth_terminator, 15 codes over [-1, 1], linear.
-// = 1 * (code - 7) / 7
+// = (code - 7) / 7
 // Expects code in [0, 14]. Returns [-1, 1].
 // models/callisto.lobe:202
 float decode_smooth_terminator(float code)
@@ -168,7 +168,7 @@ float decode_dual_specular_roughness_scale(float code)
 }
 
 // The code of dual_specular_opacity: 2 codes over [0, 1], linear.
-// = round(1 * x / 1)
+// = round(x)
 // Returns [0, 1].
 // models/callisto.lobe:205
 float encode_dual_specular_opacity(float x)
@@ -195,7 +195,8 @@ float pack_d_r(float diffuse_fresnel, float retroreflection)
 float pack_d_g(float diffuse_fresnel_falloff, float retroreflection)
 {
     const float retroreflection_code = encode_retroreflection(retroreflection);
-    const float diffuse_fresnel_falloff_code = encode_diffuse_fresnel_falloff(diffuse_fresnel_falloff);
+    const float diffuse_fresnel_falloff_code =
+        encode_diffuse_fresnel_falloff(diffuse_fresnel_falloff);
     const float t0 = (retroreflection_code - floor(retroreflection_code * 0.0625) * 16.0) * 16.0;
     return (t0 + floor(diffuse_fresnel_falloff_code * 0.5)) * 0.0039215684;
 }
@@ -207,9 +208,11 @@ float pack_d_g(float diffuse_fresnel_falloff, float retroreflection)
 float pack_d_b(float diffuse_fresnel_falloff, float retroreflection_falloff,
     float smooth_terminator)
 {
-    const float diffuse_fresnel_falloff_code = encode_diffuse_fresnel_falloff(diffuse_fresnel_falloff);
+    const float diffuse_fresnel_falloff_code =
+        encode_diffuse_fresnel_falloff(diffuse_fresnel_falloff);
     const float t0 = floor(diffuse_fresnel_falloff_code * 0.5) * 2.0;
-    const float retroreflection_falloff_code = encode_retroreflection_falloff(retroreflection_falloff);
+    const float retroreflection_falloff_code =
+        encode_retroreflection_falloff(retroreflection_falloff);
     const float smooth_terminator_code = encode_smooth_terminator(smooth_terminator);
     const float t1 = (diffuse_fresnel_falloff_code - t0) * 128.0;
     const float t2 = t1 + retroreflection_falloff_code * 4.0;
@@ -225,8 +228,10 @@ float pack_d_a(float smooth_terminator, float specular_fresnel_falloff,
     float dual_specular_roughness_scale, float dual_specular_opacity)
 {
     const float smooth_terminator_code = encode_smooth_terminator(smooth_terminator);
-    const float specular_fresnel_falloff_code = encode_specular_fresnel_falloff(specular_fresnel_falloff);
-    const float dual_specular_roughness_scale_code = encode_dual_specular_roughness_scale(dual_specular_roughness_scale);
+    const float specular_fresnel_falloff_code =
+        encode_specular_fresnel_falloff(specular_fresnel_falloff);
+    const float dual_specular_roughness_scale_code =
+        encode_dual_specular_roughness_scale(dual_specular_roughness_scale);
     const float dual_specular_opacity_code = encode_dual_specular_opacity(dual_specular_opacity);
     const float t0 = (smooth_terminator_code - floor(smooth_terminator_code * 0.25) * 4.0) * 64.0;
     const float t1 = t0 + specular_fresnel_falloff_code * 8.0;
