@@ -25,11 +25,11 @@ struct Packed {
     std::vector<ir::Slot> room;  ///< what a packing may use, see analyze::room
     std::vector<analyze::FieldCodes> codes;
     analyze::PackingErrors errors;
-    bool met = true;  ///< the requirements on radiance
+    std::optional<double> limit;  ///< what is asked of the worst error, by source or search
+    bool met = true;              ///< it stays below
 
     /// Set when the packing was searched for. If nothing was found, the packing has no fields.
     const analyze::Suggestion* suggestion = nullptr;
-    std::optional<double> error_limit;         ///< that the search was given
     std::optional<double> written_error = {};  ///< worst, of the packing in the source
     int written_bits = 0;
 

@@ -165,8 +165,7 @@ std::string to_json(std::span<const Packed> packings)
                          {"gbuffer", packed.packing->gbuffer},
                          {"suggested", packed.suggestion != nullptr},
                          {"met", packed.met}};
-        if (packed.packing->radiance_limit)
-            one["radiance_limit"] = number(*packed.packing->radiance_limit);
+        if (packed.limit) one["radiance_limit"] = number(*packed.limit);
         if (found) {
             one["layout"] = layout_json(packed);
             one["fields"] = fields_json(packed);

@@ -58,41 +58,46 @@ std::string remarks(const ir::Channel& channel, const ir::Configurations& suppor
     return out;
 }
 
+/// What the engine keeps in a channel, under the shown configuration or any other supported one;
+/// null if the packing goes without it.
+const ir::Channel::Holder* holder_of(const Packed& packed, const ir::Channel& channel,
+                                     std::size_t shown)
+{
+    const ir::Configurations everywhere(packed.gbuffer().configurations(), true);
+    const std::vector<std::string>& without = packed.packing->without;
+    for (const bool elsewhere : {false, true})
+        for (const ir::Channel::Holder& holder : channel.holders) {
+            const bool there =
+                elsewhere ? any(both(holder.when, packed.packing->supported)) : holder.when[shown];
+            if (!there || std::ranges::find(without, holder.name) != without.end()) continue;
+            // Nothing lives in a channel that is not there, unless that is what keeps shaders
+            // from it: content of this configuration in particular.
+            if (!channel.exists[shown] && (elsewhere || holder.when == everywhere)) continue;
+            return &holder;
+        }
+    return nullptr;
+}
+
 /// What stands in bits that no field uses.
 Piece unused(const Packed& packed, const ir::Channel& channel, std::size_t shown, bool is_room)
 {
     const ir::Gbuffer& gbuffer = packed.gbuffer();
     const ir::Configurations& supported = packed.packing->supported;
+    const ir::Configurations missing = except(supported, channel.exists);
     Piece piece;
+    piece.detail = is_room ? "" : remarks(channel, supported);
     if (is_room) {
         piece.holds = Piece::Holds::nothing;
         piece.label = "free";
-        return piece;
-    }
-    piece.detail = remarks(channel, supported);
-    if (!channel.exists[shown]) {
+    } else if (const ir::Channel::Holder* holder = holder_of(packed, channel, shown)) {
+        piece.holds = Piece::Holds::engine;
+        piece.label = holder->name;
+        piece.detail = join(holder->text, piece.detail);
+        if (holder->lent) piece.detail += "; lent: `without " + holder->name + "` takes it";
+    } else if (!channel.exists[shown]) {
         piece.label = "not there";
-        const ir::Configurations absent = except(supported, channel.exists);
-        piece.detail = "not there under " + gbuffer.describe(shown, absent);
-        return piece;
-    }
-    const auto taken = [&](const ir::Channel::Holder& holder) {
-        return std::ranges::find(packed.packing->without, holder.name) !=
-               packed.packing->without.end();
-    };
-    // What lives there under the shown configuration first, then under any other supported one.
-    for (const bool elsewhere : {false, true})
-        for (const ir::Channel::Holder& holder : channel.holders) {
-            const bool there = elsewhere ? any(both(holder.when, supported)) : holder.when[shown];
-            if (!there || taken(holder)) continue;
-            piece.holds = Piece::Holds::engine;
-            piece.label = holder.name;
-            piece.detail = join(holder.text, piece.detail);
-            if (holder.lent) piece.detail += "; lent: `without " + holder.name + "` takes it";
-            return piece;
-        }
-    const ir::Configurations missing = except(supported, channel.exists);
-    if (const auto example = nearest_to_default(gbuffer, missing)) {
+        piece.detail = "not there under " + gbuffer.describe(shown, missing);
+    } else if (const auto example = nearest_to_default(gbuffer, missing)) {
         piece.label = "not always there";
         piece.detail = "not there under " + gbuffer.describe(*example, missing);
     } else if (channel.field.empty()) {

@@ -154,8 +154,8 @@ Record packing_record(const Packed& packed)
     if (is_found(packed)) {
         std::string line =
             fmt::format("Worst radiance error {}", percent(packed.errors.whole.worst));
-        if (packed.packing->radiance_limit)
-            line += fmt::format("; {} is asked for", percent(*packed.packing->radiance_limit));
+        if (packed.limit)
+            line += fmt::format("; less than {} is asked for", percent(*packed.limit));
         lines.push_back(text(line + ".", packed.met ? "" : "bad"));
         const std::string words = comparison(packed);
         for (std::size_t at = 0; at < words.size(); at = words.find('\n', at) + 1)

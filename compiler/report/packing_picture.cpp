@@ -19,7 +19,7 @@ namespace {
 
 constexpr int default_width = 80;
 constexpr int margin = 2;
-constexpr int most_lines = 4;     ///< of a label
+constexpr int most_lines = 5;     ///< of a label
 constexpr int closed_width = 15;  ///< of a channel that is not drawn by bits
 
 int columns_of(int bits) { return 2 * bits - 1; }

@@ -82,7 +82,7 @@ Plot trade_plot(const Packed& packed)
     }
     for (const ir::Field& field : packed.packing->fields) measured.chosen += field.bits;
     out.series = {measured, predicted};
-    if (packed.error_limit) out.levels.push_back({"limit", *packed.error_limit});
+    if (packed.limit) out.levels.push_back({"limit", *packed.limit});
     if (packed.suggestion->found)
         out.levels.push_back({"8 linear bits each", packed.suggestion->linear.whole.worst});
     return out;

@@ -99,6 +99,8 @@ std::string comparison(const Packed& packed)
     out += fmt::format("8 linear bits for each, {} bits: {}", 8 * parameters, percent(linear));
     if (worst > 0) out += fmt::format(", {:.3g} times as much", linear / worst);
     out += "\n";
+    if (packed.limit && !packed.met)
+        out += fmt::format("less than {} is asked for, and not reached\n", percent(*packed.limit));
     if (packed.written_error)
         out += fmt::format("the packing in the source, {} bits: {}\n", packed.written_bits,
                            percent(*packed.written_error));

@@ -125,6 +125,7 @@ std::string percent(double fraction)
     const double number = 100 * fraction;
     if (number == 0) return "0 %";
     if (!std::isfinite(number)) return "unbounded";
+    if (number >= 1e5) return fmt::format("{:.3g} %", number);
     if (number >= 100) return fmt::format("{:.0f} %", number);
     if (number >= 10) return fmt::format("{:.3g} %", number);
     if (number >= 0.01) return fmt::format("{:.2g} %", number);
@@ -133,25 +134,27 @@ std::string percent(double fraction)
 
 std::string in_words(const Packed& packed, const analyze::RadianceWitness& witness)
 {
-    std::vector<std::string> parts;
-    if (std::string directions = directions_in_words(witness.inputs); !directions.empty())
-        parts.push_back(std::move(directions));
-    Values rest;
-    for (const auto& [name, number] : witness.inputs) {
-        // What is stored says its value below; what is at its default is what a reader expects.
-        if (is_direction(name) || find(witness.stored, name)) continue;
-        if (default_of(*packed.module, name) != number) rest.emplace_back(name, number);
-    }
-    for (std::string& group : in_groups(rest)) parts.push_back(std::move(group));
+    // What the packing changes, then where; what is at its default is what a reader expects.
+    std::vector<std::string> changed, others;
     for (const auto& [name, stored] : witness.stored) {
         const double exact = find(witness.inputs, name).value_or(stored);
-        if (exact == stored && default_of(*packed.module, name) == exact) continue;
-        parts.push_back(exact == stored ? fmt::format("{} {}", name, short_value(exact))
-                                        : fmt::format("{} {} stored as {}", name,
-                                                      short_value(exact), short_value(stored)));
+        if (exact != stored)
+            changed.push_back(
+                fmt::format("{} {} stored as {}", name, short_value(exact), short_value(stored)));
     }
-    std::string out = "at ";
-    for (std::size_t i = 0; i < parts.size(); ++i) out += (i > 0 ? "; " : "") + parts[i];
+    if (std::string directions = directions_in_words(witness.inputs); !directions.empty())
+        others.push_back(std::move(directions));
+    Values rest;
+    for (const auto& [name, number] : witness.inputs) {
+        if (is_direction(name) || default_of(*packed.module, name) == number) continue;
+        if (find(witness.stored, name).value_or(number) == number) rest.emplace_back(name, number);
+    }
+    for (std::string& group : in_groups(rest)) others.push_back(std::move(group));
+
+    std::string out;
+    for (const std::string& part : changed) out += (out.empty() ? "" : ", ") + part;
+    for (std::size_t i = 0; i < others.size(); ++i)
+        out += (i > 0 ? "; " : out.empty() ? "at " : ", at ") + others[i];
     return out + fmt::format(": radiance {} becomes {}", short_value(witness.exact),
                              short_value(witness.packed));
 }

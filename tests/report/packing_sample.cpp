@@ -85,7 +85,6 @@ ir::Packing packing()
     out.gbuffer = "small";
     out.module = "skin";
     out.supported = everywhere;
-    out.radiance_limit = 0.25;
     out.fields = {
         field(0, {{3, 0, 8}}, power, {0, 256}), field(1, {{5, 4, 4}}, pivoted, {0, 0.9375}),
         field(2, {{5, 0, 3}}, {}, {-1, 1}),     field(3, {{4, 0, 8}, {6, 6, 2}}, {}, {0, 1}),
@@ -167,6 +166,7 @@ report::Packed PackingSample::packed() const
     out.codes[0] = {255, 1, 127, 1, 7.875, 248.125, 0, 256};
     out.codes[1] = {16, 0.75, 12, 0.7499999, 0.0625, 0, 0, 0.9375};
     out.errors = suggestion.errors;
+    out.limit = 0.25;
     return out;
 }
 
@@ -176,7 +176,7 @@ report::Packed PackingSample::suggested() const
     out.module = &suggestion.module;
     out.packing = &suggestion.module.packings.back();
     out.suggestion = &suggestion;
-    out.error_limit = 0.2;
+    out.limit = 0.2;
     out.written_error = 0.5;
     out.written_bits = 24;
     return out;
