@@ -24,6 +24,7 @@ int main(int argc, char** argv)
     app.fallthrough();
     app.footer("Examples:\n"
                "  lobec build models/callisto.lobe -o out\n"
+               "  lobec pack models/callisto.lobe --svg layout.svg\n"
                "  lobec verify models --json result.json\n"
                "  lobec explain E0501\n"
                "`lobec COMMAND --help` shows each command with an example.\n"
@@ -40,6 +41,7 @@ int main(int argc, char** argv)
     add_check(app, terminal, status);
     add_format(app, terminal, status);
     add_evaluate(app, terminal, status);
+    add_pack(app, terminal, status);
     add_verify(app, terminal, status);
     add_explain(app, terminal, status);
     add_devices(app, terminal, status);
