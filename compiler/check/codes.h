@@ -1,5 +1,7 @@
 // Codes: how a value becomes a fraction of the codes that some bits have, and back.
 //
+// codes.cpp lowers declarations, field_code.cpp reads what a field says.
+//
 // In: `code` declarations and the `code` of a field. Out: two functions for each declaration, and
 // an ir::Code that says what a field means. What the numbers come to is checked in exactness.h,
 // once the functions of a packing are built.
@@ -29,6 +31,9 @@ LoweredCode lower_code(Program& program, std::size_t index, const Sources& sourc
 /// values, so what is reported is certain. False if something was reported.
 bool check_inverse(const Program& program, const CodeDeclaration& code, const Sources& sources,
                    Diagnostics& diagnostics);
+
+/// `linear`, `sqrt`, `power`, `log2`.
+bool is_builtin_code(std::string_view name);
 
 /// The code of a field; linear where the clause names none. `field` has its bits, its sign and its
 /// range, `parameter` is what it stores. Nothing if it makes no sense (reported: E0610, and E0607

@@ -1,8 +1,9 @@
 #include "check/exactness.h"
 
+#include "check/field_run.h"
+#include "check/neutral.h"
 #include "check/proposals.h"
 #include "check/types.h"
-#include "evaluate/run.h"
 
 #include <fmt/format.h>
 
@@ -14,32 +15,6 @@
 namespace lobe::check {
 namespace {
 
-using evaluate::Acceptance;
-using evaluate::Tape;
-
-Acceptance point(double value) { return {value, value, false}; }
-
-template <class Number>
-std::vector<Number> run(const Tape& tape, const std::vector<Number>& points)
-{
-    std::vector<Number> results(points.size());
-    const std::array<const Number*, 1> inputs{points.data()};
-    const std::array<Number*, 1> outputs{results.data()};
-    if constexpr (std::is_same_v<Number, Acceptance>)
-        evaluate::run_acceptance(tape, evaluate::Precision::float32, inputs, outputs,
-                                 points.size());
-    else
-        evaluate::run(tape, evaluate::Columns<Number>{inputs}, evaluate::Results<Number>{outputs},
-                      points.size());
-    return results;
-}
-
-template <class Number>
-Number run_one(const Tape& tape, const Number& value)
-{
-    return run(tape, std::vector<Number>{value})[0];
-}
-
 /// A number among others that may look alike: seven digits, or all that a float has.
 std::string number(double value) { return fmt::format("{:.7g}", value); }
 std::string number_beside(double value, double other)
@@ -48,69 +23,6 @@ std::string number_beside(double value, double other)
     return text == number(other) && value != other ? fmt::format("{}", static_cast<float>(value))
                                                    : text;
 }
-
-/// All codes of a field, decoded and encoded again.
-class Run {
-public:
-    Run(const ir::Module& module, const ir::Field& field)
-        : field_(field), encode_(evaluate::compile(module, module[field.encode])),
-          decode_(evaluate::compile(module, module[field.decode]))
-    {
-        const auto count = static_cast<std::size_t>(field.last_code()) + 1;
-        std::vector<float> codes(count);
-        std::vector<double> wide(count);
-        std::vector<Acceptance> points(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            codes[i] = static_cast<float>(i);
-            wide[i] = static_cast<double>(i);
-            points[i] = point(wide[i]);
-        }
-        floats = run(decode_, codes);
-        reals = run(decode_, wide);
-        accepted = run(decode_, points);
-        encoded = run(encode_, accepted);
-        top = code_of(field.range.high);
-        bottom = code_of(field.range.low);
-    }
-
-    std::vector<float> floats;
-    std::vector<double> reals;
-    std::vector<Acceptance> accepted;  ///< what a device may decode a code to
-    std::vector<Acceptance> encoded;   ///< what it may store those values as
-    std::size_t top = 0;               ///< the code of the high end
-    std::size_t bottom = 0;
-
-    std::size_t code_of(double value) const
-    {
-        return static_cast<std::size_t>(run_one(encode_, value));
-    }
-
-    /// What a device may read after it stored a value.
-    Acceptance stored_and_read(double value) const
-    {
-        const Acceptance code = run_one(encode_, point(value));
-        const auto last = static_cast<double>(field_.last_code());
-        Acceptance result = accepted[static_cast<std::size_t>(std::clamp(code.low, 0.0, last))];
-        for (double i = code.low + 1; i <= std::min(code.high, last); ++i) {
-            const Acceptance& other = accepted[static_cast<std::size_t>(i)];
-            result = {std::min(result.low, other.low), std::max(result.high, other.high),
-                      result.undefined || other.undefined};
-        }
-        result.undefined = result.undefined || code.undefined;
-        return result;
-    }
-
-    /// It comes back as the float that it is in a shader, and as nothing else.
-    bool keeps(double value) const
-    {
-        return stored_and_read(value) == point(static_cast<float>(value));
-    }
-
-private:
-    const ir::Field& field_;
-    Tape encode_;
-    Tape decode_;
-};
 
 /// A value that has to come back.
 struct Kept {
@@ -128,7 +40,7 @@ struct Kept {
 class FieldCheck {
 public:
     FieldCheck(const ir::Module& module, const ir::Gbuffer& gbuffer, const ir::Field& field,
-               const Run& run, Diagnostics& diagnostics)
+               const FieldRun& run, Diagnostics& diagnostics)
         : module_(module), gbuffer_(gbuffer), field_(field), run_(run), diagnostics_(diagnostics),
           parameter_(module.parameters[field.parameter]), name_(parameter_.name)
     {
@@ -362,102 +274,11 @@ private:
     const ir::Module& module_;
     const ir::Gbuffer& gbuffer_;
     const ir::Field& field_;
-    const Run& run_;
+    const FieldRun& run_;
     Diagnostics& diagnostics_;
     const ir::Parameter& parameter_;
     std::string name_;
 };
-
-/// The condition of an effect, over what its parameters become.
-class Condition {
-public:
-    Condition(const ir::Module& module, const ir::Effect& effect)
-        : module_(module), function_(module[effect.off_when]),
-          tape_(evaluate::compile(module, function_))
-    {
-        for (const evaluate::TapeInput& input : tape_.inputs)
-            defaults_.push_back(
-                parameter_of(input).default_value[static_cast<std::size_t>(input.component)]);
-        for (const ir::ExprId id : function_.graph.ids())
-            if (function_.graph[id].op == ir::Op::literal)
-                literals_.push_back(function_.graph.literal_of(id).value);
-    }
-
-    /// The values of a field's component at which the effect is off while all else is at its
-    /// default: the default and the condition's own numbers are tried.
-    std::vector<double> neutral_values(const ir::Field& field) const
-    {
-        std::vector<double> result;
-        const auto input = find(field);
-        if (!input) return result;
-        std::vector<double> tried{defaults_[*input]};
-        tried.insert(tried.end(), literals_.begin(), literals_.end());
-        const ir::Range& range = module_.parameters[field.parameter].range;
-        for (const double value : tried) {
-            if (value < range.low || value > range.high) continue;
-            std::vector<double> at = defaults_;
-            at[*input] = value;
-            if (is_off(at) && std::ranges::find(result, value) == result.end())
-                result.push_back(value);
-        }
-        return result;
-    }
-
-    /// Whether the effect is off, on any device, where a field's component is read as that.
-    bool stays_off(const ir::Field& field, const Acceptance& read) const
-    {
-        std::vector<Acceptance> at;
-        for (const double value : defaults_) at.push_back(point(value));
-        at[find(field).value()] = read;
-        std::vector<const Acceptance*> columns;
-        for (const Acceptance& value : at) columns.push_back(&value);
-        Acceptance result;
-        const std::array<Acceptance*, 1> outputs{&result};
-        evaluate::run_acceptance(tape_, evaluate::Precision::float32, columns, outputs, 1);
-        return result.low > 0 && !result.undefined;
-    }
-
-private:
-    const ir::Parameter& parameter_of(const evaluate::TapeInput& input) const
-    {
-        return module_.parameters[function_.inputs[input.input].which];
-    }
-
-    std::optional<std::size_t> find(const ir::Field& field) const
-    {
-        for (std::size_t i = 0; i < tape_.inputs.size(); ++i) {
-            const evaluate::TapeInput& input = tape_.inputs[i];
-            if (function_.inputs[input.input].which == field.parameter &&
-                input.component == field.component)
-                return i;
-        }
-        return std::nullopt;
-    }
-
-    bool is_off(const std::vector<double>& at) const
-    {
-        std::vector<const double*> columns;
-        for (const double& value : at) columns.push_back(&value);
-        double result = 0;
-        const std::array<double*, 1> outputs{&result};
-        evaluate::run(tape_, evaluate::Columns<double>{columns}, evaluate::Results<double>{outputs},
-                      1);
-        return result != 0;
-    }
-
-    const ir::Module& module_;
-    const ir::Function& function_;
-    Tape tape_;
-    std::vector<double> defaults_;
-    std::vector<double> literals_;
-};
-
-std::vector<Condition> conditions_of(const ir::Module& module)
-{
-    std::vector<Condition> conditions;
-    for (const ir::Effect& effect : module.effects) conditions.emplace_back(module, effect);
-    return conditions;
-}
 
 /// Fields of a color that differ in nothing but the component have one finding.
 bool is_repeated(const ir::Module& module, const ir::Packing& packing, const ir::Field& field)
@@ -507,15 +328,13 @@ void place_anchors(const ir::Module& module, ir::Packing& packing)
         if (declared) values = ir::kept_values(module, packing, field);
         for (const Condition& condition : conditions)
             for (const double value : condition.neutral_values(field)) values.push_back(value);
-        std::optional<Tape> encode;
-        if (declared) encode = evaluate::compile(module, module[field.code.encode]);
         std::vector<ir::Anchor> anchors;
         for (const double value : values) {
             if (value < field.range.low || value > field.range.high) continue;
             std::optional<int> code;
-            if (encode) {
+            if (declared) {
                 // The double arithmetic of a code loses far less than this.
-                const double place = run_one(*encode, value) * field.last_code();
+                const double place = value_of(module, field.code.encode, value) * field.last_code();
                 if (std::abs(place - std::round(place)) < 0x1p-24)
                     code = static_cast<int>(std::round(place));
             } else {
@@ -536,7 +355,7 @@ bool check_values(const ir::Module& module, const ir::Packing& packing, const ir
     const std::vector<Condition> conditions = conditions_of(module);
     for (const ir::Field& field : packing.fields) {
         if (is_repeated(module, packing, field)) continue;
-        const Run run{module, field};
+        const FieldRun run{module, field};
         FieldCheck check{module, gbuffer, field, run, diagnostics};
         std::vector<Kept> kept{{check.default_value(), Kept::Why::standard, {}, {}}};
         for (const ir::ExactRequirement& required : packing.exact)
