@@ -140,8 +140,12 @@ private:
     void add_pin(const EngineClause& line)
     {
         const auto pin = find_pin(line);
+        if (!pin) {
+            meant_.insert(line.parameter.text);
+            return;
+        }
         const auto parameter = feed(line.parameter);
-        if (!pin || !parameter) return;
+        if (!parameter) return;
         const ir::Parameter& fed = program_.parameters[*parameter];
         if (ir::components(fed.type) > 1) {
             diagnostics_.report(
@@ -261,6 +265,7 @@ private:
                 continue;
             seen.push_back(field.parameter);
             const ir::Parameter& parameter = program_.parameters[field.parameter];
+            if (meant_.contains(parameter.name)) continue;
             diagnostics_.report({.code = Code::unfed_parameter,
                                  .message = fmt::format(
                                      "`{}` is packed, but no pin or node feeds it", parameter.name),
@@ -281,6 +286,7 @@ private:
     bool has_shading_model_ = false;
     std::map<std::string, Span> pins_;
     std::map<std::uint32_t, Span> fed_;  ///< by parameter
+    std::set<std::string> meant_;        ///< parameters of pins that were reported
 };
 
 }  // namespace

@@ -79,7 +79,9 @@ std::optional<Subject> find_subject(Program& program, std::size_t file,
     subject.file = file;
     subject.model = &program.models[of->index];
     const auto& resolved = program.gbuffers[on->index].gbuffer;
-    if (!subject.model->model || !resolved) return std::nullopt;
+    // What the model of a file with syntax errors reads cannot be told.
+    if (!subject.model->model || !resolved || program.files[subject.model->file]->broken)
+        return std::nullopt;
     subject.gbuffer = &*resolved;
     subject.parameters = read_parameters(program, *subject.model->model);
     return subject;
@@ -98,9 +100,13 @@ std::optional<std::uint32_t> find_parameter(Program& program, const Subject& sub
         if (program.parameters[index].name == name.text) return index;
     if (visible != names.end() && visible->second.kind == NameKind::lost) return std::nullopt;
 
-    const auto meant = find_unread(program, subject, name.text);
     // A model with errors may have read it there.
-    if (meant && (subject.model->broken || program.parameter_broken[*meant])) return std::nullopt;
+    const bool known_elsewhere =
+        std::ranges::find(program.parameters, name.text, &ir::Parameter::name) !=
+        program.parameters.end();
+    if (subject.model->broken && known_elsewhere) return std::nullopt;
+    const auto meant = find_unread(program, subject, name.text);
+    if (meant && program.parameter_broken[*meant]) return std::nullopt;
     if (meant) {
         diagnostics.report({.code = unread,
                             .message = fmt::format("the model `{}` does not read `{}`",
