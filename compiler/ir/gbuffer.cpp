@@ -52,8 +52,11 @@ std::size_t Gbuffer::default_configuration() const
 Configurations Gbuffer::where(std::size_t setting, const std::vector<std::size_t>& wanted) const
 {
     Configurations result(configurations());
+    std::size_t stride = 1;
+    for (std::size_t i = setting + 1; i < settings.size(); ++i) stride *= settings[i].values.size();
     for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] = std::ranges::find(wanted, values(i)[setting]) != wanted.end();
+        result[i] =
+            std::ranges::find(wanted, i / stride % settings[setting].values.size()) != wanted.end();
     return result;
 }
 

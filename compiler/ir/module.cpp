@@ -190,6 +190,57 @@ std::optional<std::string> verify_function(const Module& module, std::size_t ind
     return std::nullopt;
 }
 
+std::optional<std::string> verify_packing(const Module& module, const Packing& packing)
+{
+    const auto broken = [&](std::string_view what) {
+        return fmt::format("the packing of {} on {} {}", packing.model.name, packing.gbuffer, what);
+    };
+    const auto is_function = [&](FunctionId id) { return id.index < module.functions.size(); };
+    const auto is_parameter = [&](std::uint32_t i) { return i < module.parameters.size(); };
+    const Gbuffer* gbuffer = module.find_gbuffer(packing.gbuffer);
+    if (gbuffer == nullptr) return broken("has a gbuffer that the module lacks");
+    if (packing.supported.size() != gbuffer->configurations())
+        return broken("supports configurations of another gbuffer");
+    for (const ModelOutput& output : packing.model.outputs)
+        if (!is_function(output.function)) return broken("has an output without a function");
+    for (const Field& field : packing.fields) {
+        if (!is_parameter(field.parameter)) return broken("stores a parameter that is not there");
+        int bits = 0;
+        for (const Slot& slot : field.slots) {
+            if (slot.channel >= gbuffer->channels.size())
+                return broken("has a slot in a channel that is not there");
+            bits += slot.bits;
+        }
+        if (bits != field.bits) return broken("has a field of other bits than its slots");
+        if (!is_function(field.encode) || !is_function(field.decode))
+            return broken("has a field without functions");
+    }
+    for (const ExactRequirement& exact : packing.exact)
+        if (!is_parameter(exact.parameter)) return broken("requires what is not there");
+    for (const auto& channel : packing.channels)
+        if (!is_function(channel.pack)) return broken("has a channel without a function");
+    for (const auto& parameter : packing.parameters)
+        if (!is_parameter(parameter.parameter) || !is_function(parameter.unpack))
+            return broken("has a parameter without a function");
+    return std::nullopt;
+}
+
+std::optional<std::string> verify_engine(const Module& module, const Engine& engine)
+{
+    const auto broken = [&](std::string_view what) {
+        return fmt::format("the engine block of {} for {} {}", engine.gbuffer, engine.model, what);
+    };
+    const Gbuffer* gbuffer = module.find_gbuffer(engine.gbuffer);
+    if (gbuffer == nullptr) return broken("has a gbuffer that the module lacks");
+    const auto is_parameter = [&](std::uint32_t i) { return i < module.parameters.size(); };
+    for (const Engine::PinUse& use : engine.pins)
+        if (use.pin >= gbuffer->pins.size() || !is_parameter(use.parameter))
+            return broken("feeds what is not there");
+    if (engine.node && !std::ranges::all_of(engine.node->parameters, is_parameter))
+        return broken("has an input for what is not there");
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> verify(const Module& module)
@@ -204,6 +255,10 @@ std::optional<std::string> verify(const Module& module)
         for (const ModelOutput& output : model.outputs)
             if (output.function.index >= module.functions.size())
                 return fmt::format("model {} has an output without a function", model.name);
+    for (const Packing& packing : module.packings)
+        if (auto broken = verify_packing(module, packing)) return broken;
+    for (const Engine& engine : module.engines)
+        if (auto broken = verify_engine(module, engine)) return broken;
     return std::nullopt;
 }
 
