@@ -97,6 +97,13 @@ Request renamed(const Request& request, const std::string& to)
     return result;
 }
 
+Files without_last_newlines(Files tree)
+{
+    for (auto& [path, text] : tree)
+        if (text.ends_with('\n')) text.pop_back();
+    return tree;
+}
+
 bool has(const std::string& text, std::string_view part)
 {
     return text.find(part) != std::string::npos;
@@ -151,8 +158,10 @@ TEST_CASE("a model without a node has none of its files")
 TEST_CASE("git takes the diff and makes the planned bytes of it")
 {
     const std::string version = GENERATE("4.25", "4.26", "4.27");
-    const bool crlf = GENERATE(false, true);
-    const Files tree = crlf ? with_crlf(engine_tree(version)) : engine_tree(version);
+    const int kind = GENERATE(0, 1, 2, 3);
+    Files tree = kind == 2 ? fork_tree(version) : engine_tree(version);
+    if (kind == 1) tree = with_crlf(tree);
+    if (kind == 3) tree = without_last_newlines(tree);
     const Plan plan = patch(tree, version == "4.25" ? plain() : carrier());
     INFO(shown(plan.obstacles));
     REQUIRE(plan.obstacles.empty());
@@ -176,9 +185,10 @@ TEST_CASE("git takes the diff and makes the planned bytes of it")
 TEST_CASE("patching again changes nothing, reverting restores every byte")
 {
     const std::string version = GENERATE("4.25", "4.26", "4.27");
-    const int kind = GENERATE(0, 1, 2);
+    const int kind = GENERATE(0, 1, 2, 3);
     Files tree = kind == 2 ? fork_tree(version) : engine_tree(version);
     if (kind == 1) tree = with_crlf(tree);
+    if (kind == 3) tree = without_last_newlines(tree);
     const Request& request = version == "4.25" ? plain() : carrier();
     const Files once = patched(tree, request);
     CHECK(once != tree);
@@ -251,9 +261,8 @@ TEST_CASE("what stands in the way is named")
         const Files taken =
             with(tree, common, number, "#define SHADINGMODELID_CALLISTO 11\n" + number);
         CHECK(has(refused(taken, plain()), "the tree has a shading model of this name"));
-        CHECK(has(
-            refused(with(tree, types, "	MSM_Cloth	", "	MSM_Callisto	"), plain()),
-            "the engine has a shading model of this name"));
+        CHECK(has(refused(with(tree, types, "	MSM_Cloth	", "	MSM_Callisto	"), plain()),
+                  "the engine has a shading model of this name"));
     }
     SECTION("the mask holds fewer")
     {
