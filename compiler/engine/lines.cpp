@@ -38,14 +38,19 @@ std::string to_bytes(const Lines& lines)
     for (const Line& line : lines.lines) size += line.text.size() + 2;
     std::string bytes;
     bytes.reserve(size);
-    if (lines.byte_order_mark) bytes += byte_order_mark;
-    for (const Line& line : lines.lines) {
-        bytes += line.text;
-        if (line.end == LineEnd::crlf) bytes += '\r';
-        if (line.end != LineEnd::none) bytes += '\n';
-    }
+    if (lines.byte_order_mark) put_byte_order_mark(bytes);
+    for (const Line& line : lines.lines) put_line(bytes, line);
     return bytes;
 }
+
+void put_line(std::string& bytes, const Line& line)
+{
+    bytes += line.text;
+    if (line.end == LineEnd::crlf) bytes += '\r';
+    if (line.end != LineEnd::none) bytes += '\n';
+}
+
+void put_byte_order_mark(std::string& bytes) { bytes += byte_order_mark; }
 
 LineEnd usual_end(const Lines& lines)
 {

@@ -30,6 +30,10 @@ struct Lines {
 Lines to_lines(std::string_view bytes);
 std::string to_bytes(const Lines& lines);
 
+/// The line and its end behind some bytes.
+void put_line(std::string& bytes, const Line& line);
+void put_byte_order_mark(std::string& bytes);
+
 /// What most lines end in; LF if there are none.
 LineEnd usual_end(const Lines& lines);
 

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace lobe::engine {
 namespace {
@@ -50,17 +51,24 @@ std::function<bool(const std::string&)> later_models_and_this(const Survey& surv
     };
 }
 
-/// What anchors see: the file without the model's edits and without what came on top of them.
-SearchedFiles pristine_files(const Survey& survey)
+/// What anchors see: the file without the model's edits and without what came on top of them. Takes
+/// the texts of files without regions.
+SearchedFiles pristine_files(Survey& survey)
 {
     SearchedFiles result;
-    for (const SurveyedFile& file : survey.files) {
+    for (SurveyedFile& file : survey.files) {
         auto& pristine = result.emplace_back();
         if (!file.sound) continue;
+        if (file.regions.empty()) {
+            const std::size_t size = file.text.lines.size();
+            std::vector<std::size_t> origins(size);
+            std::iota(origins.begin(), origins.end(), std::size_t{0});
+            pristine = make_searched(file.path, std::move(file.text), std::move(origins),
+                                     std::vector<bool>(size));
+            continue;
+        }
         Restored restored = without_regions(file.text, file.regions, later_models_and_this(survey));
-        std::vector<bool> marks(restored.text.lines.size());
-        if (!file.regions.empty())
-            marks = mark_lines(restored.text, find_regions(restored.text).regions);
+        std::vector<bool> marks = mark_lines(restored.text, find_regions(restored.text).regions);
         pristine = make_searched(file.path, std::move(restored.text), std::move(restored.origins),
                                  std::move(marks));
     }
@@ -140,9 +148,7 @@ void check_writable(const Tree& tree, const std::vector<Change>& changes,
 bool mostly_crlf(const Survey& survey)
 {
     std::ptrdiff_t balance = 0;
-    for (const SurveyedFile& file : survey.files)
-        for (const Line& line : file.text.lines)
-            if (line.end != LineEnd::none) balance += line.end == LineEnd::crlf ? 1 : -1;
+    for (const SurveyedFile& file : survey.files) balance += file.crlf;
     return balance > 0;
 }
 
@@ -154,13 +160,12 @@ std::vector<Change> change_files(const Survey& survey, const SearchedFiles& file
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (!files[i]) continue;
         const SurveyedFile& file = survey.files[i];
-        std::string before =
-            survey.later.empty()
-                ? *file.bytes
-                : to_bytes(without_regions(file.text, file.regions, later_models(survey)).text);
-        std::string after =
-            to_bytes(with_regions(*files[i], std::move(places[i]), survey.model, total));
-        if (before != after) changes.push_back({file.path, std::move(before), std::move(after)});
+        std::string after = with_regions(*files[i], std::move(places[i]), survey.model, total);
+        std::optional<std::string> below;
+        if (!survey.later.empty() && !file.regions.empty())
+            below = to_bytes(without_regions(file.text, file.regions, later_models(survey)).text);
+        const std::string& before = below ? *below : *file.bytes;
+        if (before != after) changes.push_back({file.path, before, std::move(after)});
     }
     return changes;
 }
@@ -220,7 +225,7 @@ Plan plan_patch(const Tree& tree, const EditList& list, const Request& request)
 {
     Plan plan;
     std::vector<Obstacle> obstacles;
-    const Survey survey = survey_tree(tree, list, request.model, obstacles);
+    Survey survey = survey_tree(tree, list, request.model, obstacles);
     Answers answers = first_answers(request);
     if (!is_engine(list, survey, answers, obstacles)) return finished({}, {}, {obstacles.back()});
 
@@ -260,7 +265,7 @@ Plan plan_revert(const Tree& tree, const EditList& list, const Request& request)
     std::vector<Change> changes;
     if (survey.later.empty())
         for (const SurveyedFile& file : survey.files) {
-            if (!file.sound) continue;
+            if (!file.sound || file.regions.empty()) continue;
             std::string after = to_bytes(
                 without_regions(file.text, file.regions, later_models_and_this(survey)).text);
             if (after != *file.bytes) changes.push_back({file.path, file.bytes, std::move(after)});

@@ -333,8 +333,8 @@ void check_places(const Searched& file, const std::vector<Placement>& places,
     }
 }
 
-Lines with_regions(const Searched& file, std::vector<Placement> places, const std::string& model,
-                   int total)
+std::string with_regions(const Searched& file, std::vector<Placement> places,
+                         const std::string& model, int total)
 {
     // By place, what goes in front of a line before what takes its place; else the list's order.
     std::ranges::stable_sort(places, {}, [](const Placement& place) {
@@ -342,11 +342,13 @@ Lines with_regions(const Searched& file, std::vector<Placement> places, const st
     });
     const std::vector<Line>& lines = file.lines.lines;
     const LineEnd usual = usual_end(file.lines);
-    Lines result;
-    result.byte_order_mark = file.lines.byte_order_mark;
+    std::string bytes;
+    bytes.reserve(file.text.size() + file.text.size() / 8);
+    if (file.lines.byte_order_mark) put_byte_order_mark(bytes);
+    std::vector<Line> written;
     std::size_t at = 0;
     for (const Placement& place : places) {
-        for (; at < place.from; ++at) result.lines.push_back(lines[at]);
+        for (; at < place.from; ++at) put_line(bytes, lines[at]);
         NewRegion region;
         region.model = model;
         region.name = place.edit;
@@ -360,10 +362,12 @@ Lines with_regions(const Searched& file, std::vector<Placement> places, const st
         for (; at < place.to; ++at) region.before.push_back(lines[at]);
         const std::size_t neighbor = std::min(place.from, lines.size() - 1);
         if (lines[neighbor].end != LineEnd::none) region.end = lines[neighbor].end;
-        write_region(region, result.lines);
+        written.clear();
+        write_region(region, written);
+        for (const Line& line : written) put_line(bytes, line);
     }
-    for (; at < lines.size(); ++at) result.lines.push_back(lines[at]);
-    return result;
+    for (; at < lines.size(); ++at) put_line(bytes, lines[at]);
+    return bytes;
 }
 
 }  // namespace lobe::engine

@@ -35,8 +35,8 @@ std::vector<Placement> place(const Edit& edit, const Searched& file, const emit:
 void check_places(const Searched& file, const std::vector<Placement>& places,
                   std::vector<Obstacle>& obstacles);
 
-/// The file with its regions, `total` of them in the whole tree.
-Lines with_regions(const Searched& file, std::vector<Placement> places, const std::string& model,
-                   int total);
+/// The file's bytes with its regions, `total` of them in the whole tree.
+std::string with_regions(const Searched& file, std::vector<Placement> places,
+                         const std::string& model, int total);
 
 }  // namespace lobe::engine

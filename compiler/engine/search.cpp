@@ -42,6 +42,10 @@ Searched make_searched(std::string path, Lines lines, std::vector<std::size_t> o
 {
     Searched result{
         std::move(path), std::move(lines), std::move(origins), std::move(marks), {}, {}, {}};
+    std::size_t size = 0;
+    for (const Line& line : result.lines.lines) size += line.text.size() + 1;
+    result.text.reserve(size);
+    result.starts.reserve(result.lines.lines.size());
     for (std::size_t i = 0; i < result.lines.lines.size(); ++i) {
         const Line& line = result.lines.lines[i];
         result.starts.push_back(result.text.size());

@@ -31,6 +31,8 @@ void read_file(SurveyedFile& file, std::vector<Obstacle>& obstacles)
         return;
     }
     file.text = to_lines(*file.bytes);
+    for (const Line& line : file.text.lines)
+        if (line.end != LineEnd::none) file.crlf += line.end == LineEnd::crlf ? 1 : -1;
     FoundRegions found = find_regions(file.text);
     for (const BrokenMark& mark : found.broken)
         obstacles.push_back(

@@ -6,6 +6,7 @@
 #include "engine/patch.h"
 #include "engine/regions.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct SurveyedFile {
     std::string path;
     std::optional<std::string> bytes;
     Lines text;
+    std::ptrdiff_t crlf = 0;  ///< lines that end in CRLF, less those that end in LF
     std::vector<Region> regions;
     bool sound = false;  ///< it is there, a text, and every mark has its other half
 };
