@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace lobe;
 using Catch::Contains;
 using lobe::tests::check_layout;
@@ -146,4 +148,39 @@ TEST_CASE("what is packed and not fed is a warning", "[check][engines]")
               .warnings() == "W0601");
     // Without an engine block nothing can be fed.
     CHECK(check_layout(packing).warnings() == "");
+}
+
+TEST_CASE("whatever word is missing, doubled or swapped, the check has an answer",
+          "[check][engines]")
+{
+    // As one module: what cloth.lobe and console.lobe declare, a packing and an engine block.
+    const auto body = [](const std::string& path) {
+        const std::string text = lobe::tests::file_text(path);
+        return text.substr(text.find('\n', text.find("\nmodule") + 1));
+    };
+    const std::string text = body("diagnostics/cloth.lobe") + body("diagnostics/console.lobe") +
+                             packing +
+                             "engine console for cloth {\n  shading_model \"Cloth\"\n  pin extra "
+                             "= fuzz\n  node \"More\" { width }\n  color (0, 0.5, 1)\n}\n";
+    REQUIRE(lobe::tests::check_text(text).errors() == "");
+
+    std::vector<std::string> words;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(" \n", at), text.size() - 1) + 1;
+        words.push_back(text.substr(at, end - at));
+        at = end;
+    }
+    REQUIRE(words.size() > 200);
+    for (std::size_t i = 0; i < words.size(); ++i)
+        for (const int change : {0, 1, 2}) {
+            std::vector<std::string> changed = words;
+            if (change == 0) changed[i].clear();
+            if (change == 1) changed[i] += " " + words[i];
+            if (change == 2) std::swap(changed[i], changed[(i * 7 + 3) % words.size()]);
+            std::string other;
+            for (const std::string& word : changed) other += word;
+            CAPTURE(i, change, words[i]);
+            // Either it means a module that keeps its promises, or it is refused: see check_text.
+            lobe::tests::check_text(other);
+        }
 }
