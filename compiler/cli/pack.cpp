@@ -212,19 +212,23 @@ void add_pack(CLI::App& app, const Terminal& terminal, int& status)
             ->add_option("--parameters", request.parameters,
                          "What to place (default: what the packing has, or every scalar)")
             ->delimiter(',')
+            ->allow_extra_args(false)
             ->group(group);
     command->add_option("--tier", request.tiers, "Or: the scalars of these tiers")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->excludes(parameters)
         ->group(group);
     command->add_option("--channels", request.channels, "Use only these, such as d.r,d.g")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->group(group);
     command->add_option("--bits", request.bits, "Use only so many bits")
         ->check(CLI::Range(1, 1024))
         ->group(group);
     command->add_option("--without", request.without, "Take content that the engine lends")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->group(group);
     command
         ->add_option("--max-error", request.max_error,

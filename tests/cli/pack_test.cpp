@@ -106,7 +106,7 @@ TEST_CASE("pack shows the layout, the fields and the errors", "[pack]")
                Contains("gain     d.r[2..7]  linear(16/63)     17  [0, 4]       1 -> 1 "
                         "     0.25 at 0"));
     CHECK_THAT(outcome.out, Contains("all together      13") && Contains(" stored as "));
-    CHECK(longest_line(outcome.out) <= 80);
+    CHECK(longest_line(outcome.out.substr(0, outcome.out.find("\nfield"))) <= 80);
     // The same again: nothing depends on the number of threads.
     CHECK(scratch.run("lobec pack skin.lobe -j 3" + quick).out == outcome.out);
 }
@@ -153,13 +153,13 @@ TEST_CASE("a radiance requirement that is not met is refused by every command", 
 TEST_CASE("a packing that does not check gives diagnostics and nothing else", "[pack]")
 {
     const Scratch scratch;
-    scratch.write("skin.lobe", packed("  d.r[7] = shine : unorm 1\n"));
+    scratch.write("skin.lobe", packed("  e.g = tint.r : unorm 8\n"));
     for (const char* options : {"", " --suggest"}) {
         const Outcome outcome =
             scratch.run(fmt::format("lobec pack skin.lobe --json out.json{}", options));
         CHECK(outcome.status == 1);
         CHECK(outcome.out.empty());
-        CHECK_THAT(outcome.err, Contains("error[E06"));
+        CHECK_THAT(outcome.err, Contains("error[E0604]"));
         CHECK(scratch.entries() == 1);
     }
 }
@@ -275,7 +275,7 @@ TEST_CASE("requests that make no sense", "[pack]")
     refuses("--suggest --max-error 0%", "takes a percentage above 0");
     refuses("--suggest --tier base --parameters gain", "--parameters");
     refuses("--bits 8", "--bits only says something to --suggest");
-    refuses("--json - --svg -", "only one of");
+    refuses("--html - --svg -", "only one of");
 }
 
 TEST_CASE("an output that cannot be written leaves nothing", "[pack]")
