@@ -34,7 +34,6 @@ double value(const Module& module, FunctionId id, const std::vector<double>& inp
 /// Every id of a packing names the function that it named before, and signatures are as before.
 void check_same_functions(const Module& before, const Module& after)
 {
-    REQUIRE_FALSE(verify(after));
     const Packing& packing = after.packings[0];
     REQUIRE(packing.fields.size() == before.packings[0].fields.size());
     const auto same = [&](FunctionId id, FunctionId was) {
@@ -72,6 +71,7 @@ TEST_CASE("every pass keeps what packs and unpacks", "[packing]")
     const Module simple = optimize::simplify(checked);
     // Codes past the high end of power, log2 and linear with a pivot do not come back: leave them.
     const auto check = [&](const Module& after) {
+        REQUIRE_FALSE(verify(after));
         Module reached = after;
         Module before = checked;
         for (std::size_t i : {0u, 4u, 8u}) {
