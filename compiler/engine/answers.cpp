@@ -92,8 +92,12 @@ public:
     {
         for (const Query& query : list_.queries) {
             if (query.kind != Kind::read && query.kind != Kind::count) continue;
-            if (is_asked(query))
+            const TreeFile& listed = list_.files[static_cast<std::size_t>(query.file)];
+            if (!holds(query.condition, answers_) || !holds(listed.condition, answers_)) continue;
+            if (files_[static_cast<std::size_t>(query.file)])
                 set_value(query, query.kind == Kind::read ? read(query) : count(query));
+            else if (query.fallback || !listed.optional)
+                set_value(query, query.fallback);
         }
     }
 
@@ -166,8 +170,7 @@ private:
         if (hits->empty() && query.fallback) return query.fallback;
         fail(query,
              hits->empty() ? "this value is not there"
-                           : fmt::format("this value is there {} times, in lines {}", hits->size(),
-                                         shown_lines(file(query), *hits)),
+                           : fmt::format("this value is there {}", shown_hits(file(query), *hits)),
              fmt::format("look for it in the file, and change line {} of the list", query.line),
              *hits);
         return std::nullopt;
@@ -245,10 +248,8 @@ private:
         const auto least = static_cast<std::size_t>(query.anchor.least_hits);
         const auto most = static_cast<std::size_t>(query.anchor.most_hits);
         if (hits->size() >= least && hits->size() <= most) return;
-        const std::string seen = hits->empty()
-                                     ? "not found"
-                                     : fmt::format("found {} times, in lines {}", hits->size(),
-                                                   shown_lines(file(query), *hits));
+        const std::string seen =
+            hits->empty() ? "not found" : fmt::format("found {}", shown_hits(file(query), *hits));
         fail(query, fmt::format("{}: {}", query.why, seen),
              fmt::format("line {} of the list asks for it; the edits are right only with it",
                          query.line),

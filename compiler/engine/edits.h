@@ -18,7 +18,7 @@
 //   version 4.25 REGEX                  or: it is 4.25 if this hits. The first that hits counts
 //   probe WORD REGEX                    declares a word and sets it if there is a hit
 //   read NAME REGEX                     a value: group 1 of the one hit
-//     else TEXT                         the value if there is no hit
+//     else TEXT                         the value if there is no hit, or no such file
 //   count NAME REGEX                    a value: the number of hits
 //   assert "why" REGEX                  must hit, once or as `hits` says; else refused: "why"
 //   unique "why" REGEX                  must not hit: `SHADINGMODELID_${MODEL}\b`
@@ -65,7 +65,7 @@
 //   ${next_id} ${next_id_plus_1}        values read or counted, and their successors if numbers
 //   ${0} ${1} …                         what the anchor and its groups matched
 //
-// A path of `new` gets all but the groups.
+// PATH and FROM of `new` get all but the groups.
 #pragma once
 
 #include <compare>

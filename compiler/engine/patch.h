@@ -65,7 +65,7 @@ struct Change {
 struct Obstacle {
     std::string file;    ///< from the root of the tree
     int line = 0;        ///< 0: none in particular
-    std::string edit;    ///< name of the edit, if it is about one
+    std::string edit;    ///< name of the edit, the region or the value, if it is about one
     std::string anchor;  ///< its regular expression, if that is what failed
     std::string what;    ///< what was seen
     std::string help;    ///< what to do

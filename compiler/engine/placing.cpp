@@ -66,24 +66,24 @@ private:
         std::vector<Hit>& hits = found.hits;
         if (hits.size() < least) return missing(hits, found.where);
         if (hits.size() > most)
-            return fail(lines_of(file_, *hits[0][0]).first,
-                        fmt::format("the anchor hits {} times, in lines {}; {} expected",
-                                    hits.size(), shown_lines(file_, hits),
-                                    most == 1 ? "once is" : fmt::format("{} are", most)),
-                        fmt::format("make the anchor in line {} of the list narrower, or give it a "
-                                    "`scope`",
-                                    edit_.line));
+            return fail(
+                lines_of(file_, *hits[0][0]).first,
+                fmt::format("the anchor hits {}; {} expected", shown_hits(file_, hits),
+                            most == 1 ? "once is" : fmt::format("{} are", most)),
+                fmt::format(
+                    "make the anchor of the edit in line {} of the list narrower, or give it a "
+                    "`scope`",
+                    edit_.line));
         if (edit_.last && hits.size() > 1) hits.erase(hits.begin(), hits.end() - 1);
         return std::move(hits);
     }
 
     std::nullopt_t missing(const std::vector<Hit>& hits, Stretch where)
     {
-        std::string what = hits.empty() ? "the anchor does not hit"
-                                        : fmt::format("the anchor hits {} times, in lines {}; "
-                                                      "at least {} are expected",
-                                                      hits.size(), shown_lines(file_, hits),
-                                                      edit_.anchor.least_hits);
+        std::string what = hits.empty()
+                               ? "the anchor does not hit"
+                               : fmt::format("the anchor hits {}; at least {} are expected",
+                                             shown_hits(file_, hits), edit_.anchor.least_hits);
         std::size_t line = lines_.size();
         if (!edit_.anchor.scope.empty()) {
             line = file_.line_at(where.begin);
@@ -91,8 +91,8 @@ private:
                                 file_.shown_line(file_.line_at(where.end - 1)));
         }
         return fail(line, std::move(what),
-                    fmt::format("find out what became of that line, and change the anchor in line "
-                                "{} of the list",
+                    fmt::format("find out what became of that line, and change the anchor of the "
+                                "edit in line {} of the list",
                                 edit_.line));
     }
 
@@ -113,9 +113,10 @@ private:
         const emit::Rendered rendered =
             emit::render(edit_.name, edit_.text, record, emit::Unused::fine);
         if (!rendered.error.empty())
-            return fail(lines_of(file_, *hit[0]).first,
-                        fmt::format("the text of the edit: {}", rendered.error),
-                        fmt::format("change the text behind line {} of the list", edit_.line));
+            return fail(
+                lines_of(file_, *hit[0]).first,
+                fmt::format("the text of the edit: {}", rendered.error),
+                fmt::format("change the text of the edit in line {} of the list", edit_.line));
         std::vector<std::string> result;
         for (std::string_view line : split_lines(rendered.text)) {
             if (line.ends_with('\r')) line.remove_suffix(1);
@@ -192,7 +193,8 @@ private:
             if (!added) return;
             if (!hit[1]) {
                 fail(lines_of(file_, *hit[0]).first, "group 1 of the anchor is no part of the hit",
-                     fmt::format("change the anchor in line {} of the list", edit_.line));
+                     fmt::format("change the anchor of the edit in line {} of the list",
+                                 edit_.line));
                 return;
             }
             const std::size_t line = file_.line_at(hit[1]->begin);
@@ -218,7 +220,7 @@ private:
         const std::size_t first = file_.starts[range.first];
         if (!hit[1] || hit[1]->begin < first) {
             fail(range.first, "group 1 of the anchor is no part of the lines to copy",
-                 fmt::format("change the anchor in line {} of the list", edit_.line));
+                 fmt::format("change the anchor of the edit in line {} of the list", edit_.line));
             return;
         }
         const std::size_t end = file_.starts[range.last] + lines_[range.last].text.size();

@@ -119,6 +119,13 @@ LineRange lines_of(const Searched& file, Stretch hit)
             file.line_at(hit.begin + matched.find_last_not_of(blanks))};
 }
 
+std::string shown_hits(const Searched& file, const std::vector<Hit>& hits)
+{
+    const std::string lines = shown_lines(file, hits);
+    return hits.size() == 1 ? fmt::format("once, in line {}", lines)
+                            : fmt::format("{} times, in lines {}", hits.size(), lines);
+}
+
 std::string shown_lines(const Searched& file, const std::vector<Hit>& hits)
 {
     std::string list;

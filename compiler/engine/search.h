@@ -49,6 +49,9 @@ struct LineRange {
 };
 LineRange lines_of(const Searched& file, Stretch hit);
 
+/// `once, in line 5` or `3 times, in lines 5, 9 and 12`
+std::string shown_hits(const Searched& file, const std::vector<Hit>& hits);
+
 /// `5, 9 and 12`
 std::string shown_lines(const Searched& file, const std::vector<Hit>& hits);
 

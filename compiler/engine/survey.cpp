@@ -126,6 +126,9 @@ void check_unedited(const Survey& survey, std::vector<Obstacle>& obstacles)
 void check_complete(const Survey& survey, const std::vector<std::string>& lacking,
                     std::vector<Obstacle>& obstacles)
 {
+    // Regions that could not be read are not missing, and that they could not has been said.
+    const auto is_broken = [](const SurveyedFile& file) { return file.bytes && !file.sound; };
+    if (std::ranges::any_of(survey.files, is_broken)) return;
     struct Place {
         std::string file;
         std::size_t line;

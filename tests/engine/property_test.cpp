@@ -95,6 +95,29 @@ Sample random_sample(Dice& dice, Ends ends)
     return sample;
 }
 
+/// A line goes, comes twice or changes its place, or a byte becomes another.
+void damage(Dice& dice, std::string& bytes)
+{
+    if (bytes.empty() || dice.one_in(2)) return;
+    Lines text = to_lines(bytes);
+    const auto any = [&] {
+        return static_cast<std::size_t>(dice.below(static_cast<int>(text.lines.size())));
+    };
+    const std::size_t at = any();
+    const Line line = text.lines[at];
+    switch (dice.below(4)) {
+    case 0: text.lines.erase(text.lines.begin() + static_cast<std::ptrdiff_t>(at)); break;
+    case 1: text.lines.insert(text.lines.begin() + static_cast<std::ptrdiff_t>(any()), line); break;
+    case 2: std::swap(text.lines[at], text.lines[any()]); break;
+    default:
+        if (!line.text.empty())
+            text.lines[at]
+                .text[static_cast<std::size_t>(dice.below(static_cast<int>(line.text.size())))] =
+                "/ x1\n"[dice.below(5)];
+    }
+    bytes = to_bytes(text);
+}
+
 Request random_request(Dice& dice, const std::string& model)
 {
     Request request = request_of(model);
@@ -130,9 +153,8 @@ Files reverted(const Files& files, const EditList& list, const std::string& mode
 /// A file of one line without an end does not say what lines end in.
 bool shows_its_ends(const Files& files)
 {
-    return std::ranges::all_of(files, [](const auto& file) {
-        return file.second.find('\n') != std::string::npos;
-    });
+    return std::ranges::all_of(
+        files, [](const auto& file) { return file.second.find('\n') != std::string::npos; });
 }
 
 constexpr int samples = 300;
@@ -191,6 +213,43 @@ TEST_CASE("line ends and patches commute", "[engine][property]")
         REQUIRE(patched(with_crlf(sample.files), list, request) ==
                 with_crlf(patched(sample.files, list, request)));
     }
+}
+
+TEST_CASE("a damaged tree is refused or understood, never made worse", "[engine][property]")
+{
+    int refused = 0;
+    int understood = 0;
+    for (unsigned seed = 0; seed < 3 * samples; ++seed) {
+        Dice dice{seed};
+        const Sample sample = random_sample(dice, static_cast<Ends>(seed % 3));
+        const EditList list = list_of(sample.list);
+        const Request request = random_request(dice, "Gloss");
+        Files files = patched(sample.files, list, request);
+        if (dice.one_in(2)) {
+            const Plan plan = plan_patch(tree_of(files), list, random_request(dice, "Velvet"));
+            files = applied(files, plan);
+        }
+        for (auto& [path, bytes] : files) damage(dice, bytes);
+        INFO("seed " << seed << "\n" << sample.list);
+
+        const Plan plan = plan_patch(tree_of(files), list, request);
+        if (plan.obstacles.empty()) {
+            ++understood;
+            REQUIRE(patch(applied(files, plan), list, request).changes.empty());
+        } else {
+            ++refused;
+            REQUIRE(plan.changes.empty());
+        }
+        Request only_name;
+        only_name.model = "Gloss";
+        const Plan back = plan_revert(tree_of(files), list, only_name);
+        if (!back.obstacles.empty()) continue;
+        for (const auto& [path, bytes] : applied(files, back))
+            REQUIRE(bytes.find("// BEGIN lobe Gloss ") == std::string::npos);
+    }
+    // Both happen, or the damage is not what it should be.
+    CHECK(refused > samples / 3);
+    CHECK(understood > samples / 3);
 }
 
 TEST_CASE("the second model comes out before the first", "[engine][property]")
