@@ -1,5 +1,6 @@
 #include "analyze/points.h"
 
+#include "analyze/borders.h"
 #include "analyze/directions.h"
 #include "analyze/grid.h"
 #include "analyze/random.h"
@@ -15,6 +16,7 @@ namespace {
 using evaluate::Precision;
 
 constexpr std::size_t direction_cases = static_cast<std::size_t>(Directions::both_below) + 1;
+/// Those that every function has.
 constexpr std::size_t value_cases = static_cast<std::size_t>(Values::one_hostile) + 1;
 
 // ---- values of one scalar
@@ -53,7 +55,8 @@ double hostile(Random& random, const Scalar& scalar, Values values, const Grid& 
 {
     switch (values) {
     case Values::anywhere:
-    case Values::one_hostile: return anywhere(random, scalar);
+    case Values::one_hostile:
+    case Values::at_borders: return anywhere(random, scalar);
     case Values::at_ends: return random.coin() ? scalar.low : scalar.high;
     case Values::inside_ends:
         return random.coin() ? std::min(next_above(scalar.low, grid), scalar.high)
@@ -136,15 +139,17 @@ std::string_view text_of(Directions which)
 
 std::string_view text_of(Values which)
 {
-    constexpr std::array<std::string_view, value_cases> texts{"",
-                                                              "values at their ends",
-                                                              "values one float inside their ends",
-                                                              "values at 0",
-                                                              "denormal values",
-                                                              "small values",
-                                                              "neutral values",
-                                                              "parameters at their upper ends",
-                                                              "one hostile value"};
+    constexpr std::array<std::string_view, value_cases + 1> texts{
+        "",
+        "values at their ends",
+        "values one float inside their ends",
+        "values at 0",
+        "denormal values",
+        "small values",
+        "neutral values",
+        "parameters at their upper ends",
+        "one hostile value",
+        "values at the borders of codes"};
     return texts[static_cast<std::size_t>(which)];
 }
 
@@ -179,6 +184,7 @@ Points points(const ir::Module& module, const ir::Function& entry, std::size_t c
                 choices.push_back(scalars.size() - 1);
         }
     const bool has_values = !choices.empty();
+    const Borders borders{module, entry};
     out.cases.resize(count);
 
     std::vector<double> values(scalars.size());
@@ -240,6 +246,12 @@ Points points(const ir::Module& module, const ir::Function& entry, std::size_t c
                 }
                 column += static_cast<std::size_t>(ir::components(input.type));
             }
+        }
+        if (!borders.empty() && point % 2 == 0) {
+            which.values = Values::at_borders;
+            borders.place(random, values);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                values[i] = std::clamp(values[i], scalars[i].low, scalars[i].high);
         }
         for (std::size_t i = 0; i < values.size(); ++i)
             out.columns[i][point] = to_grid(values[i], precision);

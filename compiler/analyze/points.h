@@ -45,6 +45,7 @@ enum class Values : std::uint8_t {
     neutral,      ///< parameters at their defaults, arguments 1 or 0
     upper_ends,   ///< parameters at their upper ends: a falloff of 1 is an exponent of 0
     one_hostile,  ///< one of the above for one input, the others anywhere
+    at_borders,  ///< close to the border of two codes: half of the points of what packs and unpacks
 };
 
 struct Case {
@@ -68,7 +69,8 @@ struct Points {
     std::size_t size() const { return cases.size(); }
 };
 
-/// `count` points for a function over vectors (see ir::entry_point); every fourth is hostile.
+/// `count` points for a function over vectors (see ir::entry_point); every fourth is hostile. Where
+/// values become codes, every second one is close to the border of two codes.
 /// Values lie within the declared ranges, whose ends are rounded inwards to the grid of the
 /// precision. Directions are unit vectors rounded to that grid. An unbounded range takes every
 /// order of magnitude from 2^-24 to 2^24, and the largest finite values as its ends.

@@ -1,5 +1,6 @@
 // Every code of every channel comes back: counted out in whole numbers, computed on the CPU, run on
 // the device as emitted, promised by the contract.
+#include "analyze/kill.h"
 #include "analyze/round_trip.h"
 #include "analyze/table.h"
 #include "analyze/verify.h"
@@ -262,6 +263,124 @@ TEST_CASE("what packs and unpacks is evaluated like any term", "[round_trip][tab
     // 120 times the float just below 1/255, as its decimal says; an absent depth is its default.
     CHECK(evaluate("pack_d_a", "terminator\n0\n", "mpfr:200")
               .starts_with("terminator,pack_d_a\n0,4.70588208000000000000"));
+}
+
+TEST_CASE("at the border of two codes both are accepted, at a code it alone", "[round_trip]")
+{
+    const tests::Builder b = tests::packed_skin();
+    const ir::Field& gain = b.module.packings[0].fields[0];
+    const evaluate::Tape tape = evaluate::compile(b.module, b.module[gain.encode]);
+    const auto accepted = [&](double value) {
+        const double read = static_cast<float>(value);
+        const evaluate::Acceptance x{read, read, false};
+        evaluate::Acceptance result;
+        const evaluate::Acceptance* in[] = {&x};
+        evaluate::Acceptance* out[] = {&result};
+        evaluate::run_acceptance(tape, evaluate::Precision::float32, in, out, 1);
+        return result;
+    };
+    for (int code = 1; code < 254; ++code) {
+        CAPTURE(code);
+        // power(8, 127/255)
+        const auto value = [](double at) { return std::pow(at / 127, 8); };
+        CHECK(accepted(value(code)) == evaluate::Acceptance{double(code), double(code), false});
+        CHECK(accepted(value(code + 0.5)) == evaluate::Acceptance{double(code), code + 1.0, false});
+        // Three roots and a product, each some units of 2^-24 off: a thousandth of a code is more.
+        CHECK(accepted(value(code + 0.499)).high == code);
+        CHECK(accepted(value(code + 0.501)).low == code + 1);
+    }
+}
+
+TEST_CASE("mistakes in what packs and unpacks are caught", "[round_trip][kill][device]")
+{
+    const tests::Builder b = tests::packed_skin();
+    analyze::KillOptions options;
+    options.mutants = 0;
+    options.points = 8192;
+    options.jobs = 2;
+    options.targets = {emit::find_target("glsl450")};
+    const analyze::KillSubject subject{&b.module, &b.sources};
+    const analyze::KillReport report = analyze::kill({&subject, 1}, options);
+    REQUIRE(report.no_device == "");
+    CHECK(report.unusable.empty());
+
+    std::size_t killed = 0;
+    std::set<std::string> terms;
+    for (const analyze::MutantFate& mutant : report.mutants) {
+        const auto function = b.module.find(mutant.term);
+        REQUIRE(function);
+        if (b.module[*function].kind != ir::Function::Kind::storage) continue;
+        terms.insert(mutant.term);
+        killed += mutant.fate == analyze::Fate::killed;
+        CAPTURE(mutant.term, mutant.mutant.before, mutant.mutant.after, mutant.reason);
+        CHECK(mutant.fate != analyze::Fate::tolerated);
+        if (mutant.fate != analyze::Fate::unchanged) continue;
+        // Three kinds of change are none. A decode's guard is for devices that round another way.
+        if (mutant.mutant.mutation == analyze::Mutation::remove_guard) {
+            CHECK(mutant.term.starts_with("decode_"));
+            continue;
+        }
+        REQUIRE(mutant.mutant.mutation == analyze::Mutation::change_constant);
+        const double constant = std::stod(mutant.mutant.before);
+        const bool codes = mutant.term.starts_with("encode_") || mutant.term.starts_with("decode_");
+        // The floor of a whole number over a power of two does not hear 1e-4 of it. The end of a
+        // range by 1e-4 is far less than half a code, and past it there is none.
+        int exponent = 0;
+        const bool shift = std::frexp(constant, &exponent) == 0.5 && constant < 1;
+        const bool is_end =
+            std::ranges::any_of(b.module.packings[0].fields, [&](const auto& field) {
+                if (field.encode != *function && field.decode != *function) return false;
+                const auto pivot = static_cast<double>(field.code.pivot);
+                return constant == field.range.high || constant == -field.range.low ||
+                       constant == pivot;
+            });
+        CHECK((codes ? is_end : shift));
+    }
+    // encode, decode, pack, unpack; but nothing can be mistaken in what is one call.
+    CHECK(terms.size() > 20);
+    CHECK(killed > 100);
+}
+
+TEST_CASE("half of the points of what makes codes are at the borders of codes",
+          "[round_trip][points]")
+{
+    const tests::Builder b = tests::packed_skin();
+    const ir::Packing& packing = b.module.packings[0];
+    constexpr std::size_t count = 4096;
+    const auto points_of = [&](ir::FunctionId id) {
+        return analyze::points(b.module, ir::entry_point(b.module, id), count);
+    };
+    // power(8, 127/255): a relative distance of 2^-8 or less is 2^-11 of the base, at most 254
+    // codes of which are an eighth of a code.
+    const analyze::Points gains = points_of(packing.fields[0].encode);
+    std::size_t close = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool at_border = gains.cases[i].values == analyze::Values::at_borders;
+        CHECK(at_border == (i % 2 == 0));
+        if (!at_border) continue;
+        const double position = 127 * std::pow(gains.columns[0][i], 0.125);
+        const double off = std::abs(position - std::floor(position) - 0.5);
+        CHECK(off < 0.13);
+        close += off < 1e-4;
+    }
+    CHECK(close > count / 8);
+
+    // Both channels of a field, each close to a code or half way to the next. Of points anywhere,
+    // one in 500 would be so close.
+    const analyze::Points depths = points_of(packing.parameters[6].unpack);
+    REQUIRE(depths.columns.size() == 2);
+    for (const auto& column : depths.columns) {
+        close = 0;
+        for (std::size_t i = 0; i < count; i += 2) {
+            const double half = 2 * 255 * static_cast<double>(column[i]);
+            close += std::abs(half - std::round(half)) < 1e-3;
+            CHECK((0 <= column[i] && column[i] <= 1));
+        }
+        CHECK(close > count / 16);
+    }
+    // No other function has such points.
+    for (const analyze::Case& each : points_of(packing.model.outputs[0].function).cases)
+        CHECK(each.values != analyze::Values::at_borders);
 }
 
 TEST_CASE("a lost code fails the verification", "[round_trip][verify]")

@@ -77,6 +77,15 @@ ir::Gbuffer unreal(const Builder& b)
     return gbuffer;
 }
 
+ir::Code code(ir::Code::Kind kind, int exponent, int pivot)
+{
+    ir::Code result;
+    result.kind = kind;
+    result.exponent = exponent;
+    result.pivot = pivot;
+    return result;
+}
+
 ir::Field stored(const Builder& b, std::uint32_t parameter, std::vector<ir::Slot> slots,
                  ir::Code code, int component = 0)
 {
@@ -116,15 +125,15 @@ Builder checked_skin()
     packing.span = b.line(29);
     packing.supported = {true};
     packing.fields = {
-        stored(b, 0, {{2, 0, 8}}, {Kind::power, 8, 127, {}, {}, "power"}),
-        stored(b, 1, {{3, 4, 4}}, {Kind::linear, 1, 12, {}, {}, "linear"}),
+        stored(b, 0, {{2, 0, 8}}, code(Kind::power, 8, 127)),
+        stored(b, 1, {{3, 4, 4}}, code(Kind::linear, 1, 12)),
         stored(b, 2, {{5, 3, 5}}, {}),
-        stored(b, 3, {{3, 0, 4}}, {Kind::square_root, 1, 0, {}, {}, "sqrt"}),
-        stored(b, 4, {{1, 0, 8}}, {Kind::log2, 1, 100, {}, {}, "log2"}),
+        stored(b, 3, {{3, 0, 4}}, code(Kind::square_root, 1, 0)),
+        stored(b, 4, {{1, 0, 8}}, code(Kind::log2, 1, 100)),
         stored(b, 5, {{4, 5, 3}}, {}, 0),
         stored(b, 5, {{4, 2, 3}}, {}, 1),
         stored(b, 5, {{4, 0, 2}}, {}, 2),
-        stored(b, 6, {{5, 0, 2}, {6, 0, 8}}, {Kind::linear, 1, 1020, {}, {}, "linear"}),
+        stored(b, 6, {{5, 0, 2}, {6, 0, 8}}, code(Kind::linear, 1, 1020)),
     };
     packing.fields[1].range = {0, 0.9375};
     packing.fields[1].code.pivot = 15;
