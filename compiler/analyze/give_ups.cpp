@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -13,7 +14,7 @@ namespace {
 
 /// Less of an improvement is not worth a line.
 constexpr double worthwhile = 0.95;
-constexpr std::size_t most_told = 8;
+constexpr std::size_t most_told = 3;      ///< of each kind
 constexpr std::size_t most_narrowed = 4;  ///< parameters
 
 std::string percent(double error) { return fmt::format("{:.3g} %", error * 100); }
@@ -27,6 +28,7 @@ int bits_in(const std::vector<ir::Slot>& room)
 
 /// One thing to give up, with what is left.
 struct Alternative {
+    int kind = 0;
     std::string what;
     Subject subject;
     std::vector<FittedCurve> curves;
@@ -50,7 +52,7 @@ void add_lent_channels(const ir::Module& module, const Subject& subject,
     std::vector<std::string> all;
     int all_bits = 0;
     const auto add = [&](const std::string& words, int bits) {
-        out.push_back({fmt::format("`without {}`, {} bits more", words, bits), subject, curves,
+        out.push_back({0, fmt::format("`without {}`, {} bits more", words, bits), subject, curves,
                        bits_in(options.room) + bits});
     };
     for (const std::string& name : names) {
@@ -134,7 +136,8 @@ void add_narrower_ranges(const ir::Module& module, const Subject& subject,
         for (const bool upper : {false, true}) {
             const auto range = halved(module, subject, placed, upper);
             if (!range) continue;
-            Alternative narrower{fmt::format("`{} in [{}, {}]` instead of [{}, {}]",
+            Alternative narrower{1,
+                                 fmt::format("`{} in [{}, {}]` instead of [{}, {}]",
                                              module.parameters[placed.parameter].name, range->low,
                                              range->high, placed.range.low, placed.range.high),
                                  subject, curves, bits_in(options.room)};
@@ -163,7 +166,7 @@ void add_dropped_parameters(const ir::Module& module, const Subject& subject,
     if (subject.placed.size() < 2) return;
     for (std::size_t i = 0; i < subject.placed.size(); ++i) {
         const ir::Parameter& parameter = module.parameters[subject.placed[i].parameter];
-        Alternative without{fmt::format("`{}`, which stays at its default", parameter.name),
+        Alternative without{2, fmt::format("`{}`, which stays at its default", parameter.name),
                             subject, curves, bits_in(options.room)};
         const auto at = static_cast<std::ptrdiff_t>(i);
         for (std::size_t k = 0; k < subject.placed[i].coordinates.size(); ++k) {
@@ -194,17 +197,19 @@ std::vector<std::string> give_ups(const ir::Module& module, const Subject& subje
         questions.push_back({&one.subject, &one.curves, one.bits});
     const auto answers = best_shares(questions, options.radiance.jobs);
 
-    std::vector<std::pair<double, std::string>> ranked;
+    std::vector<std::pair<double, std::size_t>> ranked;
     for (std::size_t i = 0; i < answers.size(); ++i) {
         if (!answers[i]) continue;
         const double reached = answers[i]->measured;
         if (best.shared != nullptr && reached > best.shared->measured * worthwhile) continue;
-        ranked.emplace_back(reached, fmt::format("{}: {}", alternatives[i].what, percent(reached)));
+        ranked.emplace_back(reached, i);
     }
-    std::ranges::stable_sort(ranked, {}, &std::pair<double, std::string>::first);
+    std::ranges::sort(ranked);
     std::vector<std::string> out;
-    for (auto& [reached, text] : ranked)
-        if (out.size() < most_told) out.push_back(std::move(text));
+    std::array<std::size_t, 3> told{};
+    for (const auto& [reached, i] : ranked)
+        if (told[static_cast<std::size_t>(alternatives[i].kind)]++ < most_told)
+            out.push_back(fmt::format("{}: {}", alternatives[i].what, percent(reached)));
     return out;
 }
 

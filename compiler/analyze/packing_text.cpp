@@ -28,19 +28,26 @@ std::string slot_text(const ir::Gbuffer& gbuffer, const ir::Packing& packing, co
     return fmt::format("{}[{}..{}]", name, slot.low, slot.low + slot.bits - 1);
 }
 
-std::string field_text(const ir::Module& module, const ir::Gbuffer& gbuffer,
-                       const ir::Packing& packing, const ir::Field& field)
+/// What stands before, between and behind the `=` and the `:` of a field.
+struct FieldText {
+    std::string slots;
+    std::string name;
+    std::string storage;
+};
+
+FieldText field_text(const ir::Module& module, const ir::Gbuffer& gbuffer,
+                     const ir::Packing& packing, const ir::Field& field)
 {
     std::vector<std::string> slots;
     for (const ir::Slot& slot : field.slots) slots.push_back(slot_text(gbuffer, packing, slot));
     const ir::Parameter& parameter = module.parameters[field.parameter];
-    std::string text = fmt::format("{} = {}", joined(slots), parameter.name);
+    FieldText text{joined(slots), parameter.name, {}};
     if (ir::components(parameter.type) > 1)
-        text += fmt::format(".{}", "rgba"[static_cast<std::size_t>(field.component)]);
-    text += fmt::format(" : {} {}", field.is_signed ? "snorm" : "unorm", field.bits);
-    if (field.range != parameter.range) text += " in " + range_text(field.range);
+        text.name += fmt::format(".{}", "rgba"[static_cast<std::size_t>(field.component)]);
+    text.storage = fmt::format("{} {}", field.is_signed ? "snorm" : "unorm", field.bits);
+    if (field.range != parameter.range) text.storage += " in " + range_text(field.range);
     const bool plain = field.code.kind == ir::Code::Kind::linear && field.code.pivot == 0;
-    if (!plain && !field.is_signed) text += " code " + ir::describe(field.code, field.bits);
+    if (!plain && !field.is_signed) text.storage += " code " + ir::describe(field.code, field.bits);
     return text;
 }
 
@@ -69,8 +76,16 @@ std::string packing_text(const ir::Module& module, const ir::Packing& packing,
 {
     const ir::Gbuffer& gbuffer = *module.find_gbuffer(packing.gbuffer);
     std::string text = fmt::format("packing {} on {} {{\n", packing.model.name, packing.gbuffer);
-    for (std::size_t i = 0; i < packing.fields.size(); ++i) {
-        text += "  " + field_text(module, gbuffer, packing, packing.fields[i]);
+    std::vector<FieldText> fields;
+    std::size_t slots = 0, names = 0;
+    for (const ir::Field& field : packing.fields) {
+        fields.push_back(field_text(module, gbuffer, packing, field));
+        slots = std::max(slots, fields.back().slots.size());
+        names = std::max(names, fields.back().name.size());
+    }
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        text += fmt::format("  {:{}} = {:{}} : {}", fields[i].slots, slots, fields[i].name, names,
+                            fields[i].storage);
         if (i < remarks.size() && !remarks[i].empty()) text += "  // " + remarks[i];
         text += "\n";
     }

@@ -207,27 +207,38 @@ Peak worst_row(RadianceMeter& meter, const StoredAs& stored)
     return {*worst, meter.point(static_cast<std::size_t>(worst - errors.begin()))};
 }
 
-/// The seed, or where only one coordinate is stored, the worst of the seed at its borders.
-Peak at_its_worst(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& seed)
+/// The worst of a point with one stored coordinate moved to borders: all, or of many, some of them
+/// and those around.
+Peak swept(const RadianceBox& box, const StoredAs& stored, const Peak& from, std::size_t index)
 {
-    const auto is_stored = [](const Steps* steps) { return steps != nullptr; };
-    const auto first = std::ranges::find_if(stored, is_stored);
-    const bool one = std::ranges::count_if(stored, is_stored) == 1;
-    const std::size_t borders = one ? (*first)->borders.size() : 0;
-    // Of many codes, some: the climb moves on from there.
-    const std::size_t tried = std::min<std::size_t>(borders, 127);
+    constexpr std::size_t most = 63;
+    const Steps& steps = *stored[index];
+    const std::size_t borders = steps.borders.size();
+    const std::size_t tried = std::min(borders, most);
+    const std::size_t here = steps.step_of(from.point[index]);
+    const std::size_t begin = std::min(here - std::min(here, most / 4), borders - tried);
     RadianceMeter meter{box, 2 * tried + 1};
-    meter.set_all(seed);
-    if (one) {
-        const auto index = static_cast<std::size_t>(first - stored.begin());
+    meter.set_all(from.point);
+    for (std::size_t i = 0; i < tried; ++i) {
+        const std::size_t which = i % 2 == 0 ? i * borders / tried : begin + i / 2;
+        const float border = steps.borders[which];
         const Coordinate& coordinate = box.coordinates[index];
-        for (std::size_t i = 0; i < tried; ++i) {
-            const float border = (*first)->borders[i * borders / tried];
-            meter.column(index)[2 * i + 1] = settled(coordinate, border);
-            meter.column(index)[2 * i + 2] = settled(coordinate, std::nextafter(border, -infinity));
-        }
+        meter.column(index)[2 * i + 1] = settled(coordinate, border);
+        meter.column(index)[2 * i + 2] = settled(coordinate, std::nextafter(border, -infinity));
     }
     return worst_row(meter, stored);
+}
+
+/// A point that was bad for other codes, made as bad as can be for these: one stored coordinate
+/// after the other goes to its worst border.
+Peak at_its_worst(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& seed)
+{
+    RadianceMeter meter{box, 1};
+    meter.set_all(seed);
+    Peak peak = worst_row(meter, stored);
+    for (std::size_t i = 0; i < stored.size(); ++i)
+        if (stored[i] != nullptr && !stored[i]->borders.empty()) peak = swept(box, stored, peak, i);
+    return peak;
 }
 
 }  // namespace

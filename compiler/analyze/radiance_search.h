@@ -35,8 +35,8 @@ struct Effort {
     int rounds = 0;  ///< of each climb; the best is climbed on twice as far
 };
 
-/// The worst that is found from points of the box and from `seeds`. Where one coordinate is stored,
-/// seeds are tried at all of its borders.
+/// The worst that is found from points of the box and from `seeds`, points that were bad for other
+/// codes: those are moved to borders of these first.
 Peak search(const RadianceBox& box, const StoredAs& stored, const Effort& effort,
             std::span<const std::vector<float>> seeds);
 

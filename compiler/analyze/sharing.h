@@ -11,9 +11,10 @@ namespace lobe::analyze {
 /// Options of the curves (one index per placed parameter) that share some bits.
 struct Shared {
     std::vector<std::size_t> options;
-    int bits = 0;          ///< of all components together
-    double predicted = 0;  ///< sum over the curves
-    double measured = -1;  ///< as a whole
+    int bits = 0;                ///< of all components together
+    double predicted = 0;        ///< sum over the curves
+    double measured = -1;        ///< as a whole
+    std::vector<float> worst{};  ///< the point of that
 };
 
 /// How many bits an option takes, for all components.
@@ -28,11 +29,8 @@ std::optional<int> least_bits(const Subject& subject, const std::vector<FittedCu
 std::vector<Shared> shares_of(const Subject& subject, const std::vector<FittedCurve>& curves,
                               int bits);
 
-/// The worst error with all of them stored.
-double measure(const Subject& subject, const std::vector<FittedCurve>& curves,
-               const Shared& shared);
-
-/// The best measured layout for each of several questions, all measured side by side.
+/// The best measured layout for each of several questions. All are measured side by side, and then
+/// once more, each at what was worst for the others.
 struct ShareQuestion {
     const Subject* subject = nullptr;
     const std::vector<FittedCurve>* curves = nullptr;
@@ -41,9 +39,10 @@ struct ShareQuestion {
 std::vector<std::optional<Shared>> best_shares(const std::vector<ShareQuestion>& questions,
                                                unsigned jobs);
 
-/// A better layout near one, as measured: a bit from one parameter to another, as long as that
-/// helps. Errors do not quite add up, as the sums above take them to.
+/// A better layout near one, as measured: a bit more for one parameter, out of what `bits` leaves
+/// or from another parameter, as long as that helps. Errors do not quite add up, as the sums above
+/// take them to. `known` are bad points of other layouts.
 Shared improved(const Subject& subject, const std::vector<FittedCurve>& curves, Shared shared,
-                unsigned jobs);
+                int bits, const std::vector<std::vector<float>>& known, unsigned jobs);
 
 }  // namespace lobe::analyze

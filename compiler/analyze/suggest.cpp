@@ -131,11 +131,15 @@ const Shared* take_best(Suggestion& out, const ir::Module& module, const Subject
     };
     for (Shared& shared : trade)
         if (options.error && shared.measured < *options.error && taken(shared)) return &shared;
-    const auto best = std::ranges::min_element(trade, {}, &Shared::measured);
-    if (best == trade.end()) return nullptr;
-    *best = improved(subject, curves, *best, options.radiance.jobs);
-    taken(*best);
-    return &*best;
+    if (trade.empty()) return nullptr;
+    std::vector<std::vector<float>> known;
+    for (const Shared& shared : trade) known.push_back(shared.worst);
+    Shared best = improved(subject, curves, trade.back(), bits_in(options.room), known,
+                           options.radiance.jobs);
+    while (!trade.empty() && trade.back().bits >= best.bits) trade.pop_back();
+    trade.push_back(std::move(best));
+    taken(trade.back());
+    return &trade.back();
 }
 
 std::string needs_too_much(const ir::Module& module, const Subject& subject,
@@ -186,9 +190,9 @@ Suggestion suggest(const ir::Module& module, std::size_t packing, const SuggestO
             questions.push_back({&subject, &curves, some});
     std::vector<Shared> trade;
     for (const auto& answer : best_shares(questions, jobs)) {
-        // With more bits than are of use, the same again.
-        if (!answer || (!trade.empty() && answer->bits <= trade.back().bits)) continue;
-        trade.push_back(*answer);
+        // With more bits nothing has to become worse: what is not better is the same again.
+        if (answer && (trade.empty() || answer->measured < trade.back().measured))
+            trade.push_back(*answer);
     }
     progress(2);
 
