@@ -68,9 +68,13 @@ private:
     void draw_channel(const ChannelLayout& channel, double left, double head)
     {
         const ir::Channel& about = packed_.gbuffer().channels[channel.channel];
-        out_ += fmt::format("<text class=\"soft\" x=\"{:.0f}\" y=\"{:.0f}\">{} {}, {}</text>\n",
-                            left + 3, top_ + line_height - 3, escaped_xml(about.name),
-                            describe(channel.format), escaped_xml(about.label));
+        const int bits = channel.is_open() ? channel.format.bits : closed_bits;
+        std::string title =
+            fmt::format("{} {}, {}", about.name, describe(channel.format), about.label);
+        const auto letters = static_cast<std::size_t>((bits * bit_width - 6) / letter_width);
+        if (title.size() > letters) title = title.substr(0, letters - 2) + "..";
+        out_ += fmt::format("<text class=\"soft\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n", left + 3,
+                            top_ + line_height - 3, escaped_xml(title));
         if (!channel.is_open()) {
             draw_piece(channel.pieces.front(), left, closed_bits, head);
             return;
@@ -86,12 +90,23 @@ private:
         }
     }
 
-    std::string box_class(const Piece& piece) const
+    /// One per parameter, in the order of the fields, so that neighbors differ.
+    std::size_t hue_of(std::size_t field) const
     {
         constexpr std::size_t hues = 8;
+        const std::vector<ir::Field>& fields = packed_.packing->fields;
+        std::vector<std::uint32_t> parameters;
+        for (std::size_t i = 0; i <= field; ++i)
+            if (std::ranges::find(parameters, fields[i].parameter) == parameters.end())
+                parameters.push_back(fields[i].parameter);
+        const auto at = std::ranges::find(parameters, fields[field].parameter);
+        return static_cast<std::size_t>(at - parameters.begin()) % hues;
+    }
+
+    std::string box_class(const Piece& piece) const
+    {
         switch (piece.holds) {
-        case Piece::Holds::field:
-            return fmt::format("field c{}", packed_.packing->fields[piece.field].parameter % hues);
+        case Piece::Holds::field: return fmt::format("field c{}", hue_of(piece.field));
         case Piece::Holds::nothing: return "free";
         case Piece::Holds::engine:
         case Piece::Holds::closed: return "closed";
