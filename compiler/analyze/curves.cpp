@@ -77,6 +77,18 @@ std::vector<CurvePoint> candidates(const Subject& subject, const Placed& placed,
         code.pivot = static_cast<int>(std::floor(last / std::log2(1 + size)));
         if (code.pivot >= 1) consider(false, code);
     }
+    // The largest pivot that reaches the high end.
+    const ir::Parameter& parameter = subject.bare.parameters[placed.parameter];
+    if (const auto one = ir::halving(parameter, 0, range, 1)) {
+        ir::Field field;
+        field.bits = bits;
+        field.range = range;
+        field.code = *one;
+        ir::Code code = *one;
+        code.pivot =
+            static_cast<int>(std::floor(last / ir::position(field, range.high) * (1 + 0x1p-40)));
+        if (code.pivot >= 1) consider(false, code);
+    }
     for (const ir::Code& code : placed.declared) consider(false, code);
     return found;
 }

@@ -20,11 +20,12 @@ struct BuiltinCode {
     ir::Code::Kind kind;
     std::string_view form;  ///< how it is written
 };
-constexpr std::array<BuiltinCode, 4> builtin_codes{{
+constexpr std::array<BuiltinCode, 5> builtin_codes{{
     {"linear", ir::Code::Kind::linear, "`linear` or `linear(252/255)`"},
     {"sqrt", ir::Code::Kind::square_root, "`sqrt`"},
     {"power", ir::Code::Kind::power, "`power(8, 127/255)`"},
     {"log2", ir::Code::Kind::log2, "`log2` or `log2(31/255)`"},
+    {"halving", ir::Code::Kind::halving, "`halving(120/255)`"},
 }};
 
 class Reading {
@@ -115,7 +116,8 @@ private:
         code.name = builtin.name;
         const std::size_t given = arguments().size();
         const bool is_power = builtin.kind == ir::Code::Kind::power;
-        const std::size_t least = is_power ? 2 : 0;
+        const bool is_halving = builtin.kind == ir::Code::Kind::halving;
+        const std::size_t least = is_power ? 2 : is_halving ? 1 : 0;
         const std::size_t most = is_power ? 2 : builtin.kind == ir::Code::Kind::square_root ? 0 : 1;
         if (given < least || given > most)
             return refuse(fmt::format("`{}` takes {} argument{}, and {} {} given", builtin.name,
@@ -134,14 +136,31 @@ private:
                               {span_of(arguments()[0]), fmt::format("is {}", describe(*exponent))});
             code.exponent = static_cast<int>(*exponent);
         }
-        if (given > least || is_power) {
+        if (given > least || is_power || is_halving) {
             const auto pivot = read_pivot(arguments().back());
             if (!pivot) return std::nullopt;
             // A linear code without a pivot has it at the last code.
             const bool implied = builtin.kind == ir::Code::Kind::linear && *pivot == last();
             code.pivot = implied ? 0 : *pivot;
         }
-        return code;
+        return is_halving ? halving(code.pivot) : code;
+    }
+
+    std::optional<ir::Code> halving(int pivot)
+    {
+        if (auto code = ir::halving(parameter_, field_.component, field_.range, pivot)) return code;
+        return refuse(
+            fmt::format("`halving` never reaches the top of `{}`, and the default is inside",
+                        parameter_.name),
+            {clause_.code->span,
+             fmt::format(
+                 "the field carries {}, the parameter has {}, and its "
+                 "default is {}",
+                 describe(field_.range), describe(parameter_.range),
+                 describe(parameter_.default_value[static_cast<std::size_t>(field_.component)]))},
+            {"equal steps halve what is missing to the parameter's own high end"},
+            {"let the field carry less than the parameter: `in [low, high]` with a lower high "
+             "end"});
     }
 
     /// `127/255`: a code over the last code; `1` is the last one.
@@ -188,14 +207,14 @@ private:
                 return std::nullopt;
             std::vector<std::string> known = names_of(file_.names, NameKind::code);
             for (const BuiltinCode& builtin : builtin_codes) known.emplace_back(builtin.name);
-            return refuse(found == file_.names.end()
-                              ? fmt::format("no code is called `{}`{}", name.text,
-                                            did_you_mean(name.text, known))
-                              : fmt::format("`{}` is no code", name.text),
-                          {name.span, ""}, {},
-                          {"the codes are linear, sqrt, power, log2, and those that a `code` item "
-                           "declares"},
-                          rename_fix(name.text, name.span, known));
+            return refuse(
+                found == file_.names.end() ? fmt::format("no code is called `{}`{}", name.text,
+                                                         did_you_mean(name.text, known))
+                                           : fmt::format("`{}` is no code", name.text),
+                {name.span, ""}, {},
+                {"the codes are linear, sqrt, power, log2, halving, and those that a `code` item "
+                 "declares"},
+                rename_fix(name.text, name.span, known));
         }
         found->second.used = true;
         const CodeDeclaration& code = program_.codes[found->second.index];

@@ -84,6 +84,12 @@ public:
             const ExprId log = write.apply(Op::log2, write.add(kept, 1 - low_));
             return up_to_last(write, write.rounded(write.times(log, 1 / log_step())));
         }
+        case Code::Kind::halving: {
+            const ExprId missing =
+                write.times(write.below(code_.top, kept), 1 / (code_.top - low_));
+            const ExprId log = write.apply(Op::log2, missing);
+            return up_to_last(write, write.rounded(write.times(log, 1 / halving_step())));
+        }
         case Code::Kind::declared: {
             const ExprId part =
                 write.graph.call(code_.encode, Type::scalar, {&kept, 1}, write.span);
@@ -117,6 +123,12 @@ private:
         return as_read(code_.pivot == 0 ? std::log2(1 + size_) / last_ : 1 / pivot());
     }
 
+    /// Halvings a code, less than 0; as a float too.
+    double halving_step() const
+    {
+        return as_read(std::log2((code_.top - code_.at_pivot) / (code_.top - low_)) / pivot());
+    }
+
     ExprId up_to_last(Writer& write, ExprId code) const
     {
         // A quarter of a code is far more than any rounding.
@@ -148,6 +160,7 @@ private:
         case Code::Kind::square_root: return squared(write, code);
         case Code::Kind::power: return raised(write, code);
         case Code::Kind::log2: return exponential(write, code);
+        case Code::Kind::halving: return halved(write, code);
         case Code::Kind::declared: return declared(write, code);
         }
         return {code, {}};
@@ -252,6 +265,13 @@ private:
         return {write.clamp(write.add(power, low_ - 1), field_.range), {}};
     }
 
+    Decoded halved(Writer& write, ExprId code) const
+    {
+        const ExprId part = write.apply(Op::exp2, write.times(code, halving_step()));
+        const ExprId missing = write.times(part, code_.top - low_);
+        return {write.clamp(write.below(code_.top, missing), field_.range), {}};
+    }
+
     Decoded declared(Writer& write, ExprId code) const
     {
         const Factor by = covering(1 / last_, [this](const Factor& tried) {
@@ -328,6 +348,13 @@ std::string encode_formula(const Field& field)
                    ? fmt::format("round({} / log2({}))", scaled(last, log), number_text(1 + size))
                    : fmt::format("round({})", scaled(pivot, log));
     }
+    case Code::Kind::halving:
+        return fmt::format(
+            "round({})",
+            over(scaled(pivot,
+                        fmt::format("log2({})", over(fmt::format("({} - x)", number_text(code.top)),
+                                                     code.top - low))),
+                 std::log2((code.top - code.at_pivot) / (code.top - low))));
     case Code::Kind::declared: return fmt::format("round({} * {}_encode(x))", last, code.name);
     }
     return {};
@@ -351,6 +378,14 @@ std::string decode_formula(const Field& field)
     case Code::Kind::log2:
         return sum(fmt::format("{}^{}", number_text(code.pivot == 0 ? 1 + size : 2), part(pivot)),
                    field.range.low - 1);
+    case Code::Kind::halving: {
+        const double size_to_top = code.top - field.range.low;
+        return fmt::format(
+            "{} - {}", number_text(code.top),
+            scaled(size_to_top,
+                   fmt::format("{}^{}", number_text((code.top - code.at_pivot) / size_to_top),
+                               part(pivot))));
+    }
     case Code::Kind::declared: return fmt::format("{}_decode({})", code.name, over("code", last));
     }
     return {};

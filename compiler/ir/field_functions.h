@@ -30,6 +30,11 @@ public:
     {
         return value == 0 ? x : graph.apply(Op::add, {number(value), x}, span);
     }
+    /// value - x
+    ExprId below(double value, ExprId x)
+    {
+        return graph.apply(Op::subtract, {number(value), x}, span);
+    }
     ExprId times(ExprId x, double value)
     {
         return value == 1 ? x : graph.apply(Op::multiply, {x, number(value)}, span);

@@ -19,9 +19,24 @@ std::string describe(const Code& code, int bits)
     case Code::Kind::square_root: return "sqrt";
     case Code::Kind::power: return fmt::format("power({}, {})", code.exponent, pivot());
     case Code::Kind::log2: return code.pivot == 0 ? "log2" : fmt::format("log2({})", pivot());
+    case Code::Kind::halving: return fmt::format("halving({})", pivot());
     case Code::Kind::declared: return code.name;
     }
     return {};
+}
+
+std::optional<Code> halving(const Parameter& parameter, int component, const Range& range,
+                            int pivot)
+{
+    Code code;
+    code.kind = Code::Kind::halving;
+    code.name = "halving";
+    code.pivot = pivot;
+    code.top = parameter.range.high;
+    code.at_pivot = parameter.default_value[static_cast<std::size_t>(component)];
+    if (range.high >= code.top || code.at_pivot <= range.low || code.at_pivot > range.high)
+        return std::nullopt;
+    return code;
 }
 
 std::string field_name(const Module& module, const Field& field)
@@ -47,6 +62,12 @@ double position(const Field& field, double value)
     case Code::Kind::power: return pivot * std::pow(above, 1.0 / code.exponent);
     case Code::Kind::log2:
         return pivot * std::log2(1 + above) / (code.pivot == 0 ? std::log2(1 + size) : 1);
+    case Code::Kind::halving: {
+        const auto halvings = [&](double x) {
+            return std::log2((code.top - x) / (code.top - field.range.low));
+        };
+        return pivot * halvings(value) / halvings(code.at_pivot);
+    }
     case Code::Kind::declared: break;
     }
     assert(false);

@@ -40,6 +40,10 @@ struct Slot {
 ///   power(n, pivot)   u = pivot (x - low)^(1/n): low + 1 is stored at the pivot
 ///   log2(pivot)       u = pivot log2(1 + x - low): low + 1 is stored at the pivot; without a
 ///                     pivot the high end is stored at 1
+///   halving(pivot)    u = pivot log2((top - x) / (top - low)) / log2((top - d) / (top - low)),
+///                     where top is the parameter's own high end, which the field stays below, and
+///                     d its default, which is stored at the pivot: equal steps halve what is
+///                     missing to the top
 ///   declared          a `code` of the source
 ///
 /// A pivot is a whole code over the last code. Codes that decode past the high end decode to it.
@@ -50,11 +54,14 @@ struct Code {
         square_root,
         power,
         log2,
+        halving,
         declared
     };
     Kind kind = Kind::linear;
     int exponent = 1;             ///< of power: 1 .. 32
     int pivot = 0;                ///< as a code, 1 .. last; 0: none
+    double top = 0;               ///< of halving
+    double at_pivot = 0;          ///< of halving: the value that is stored there
     FunctionId encode;            ///< declared: value -> u, over the reals
     FunctionId decode;            ///< declared: u -> value
     std::string name = "linear";  ///< of a declared code
@@ -63,6 +70,11 @@ struct Code {
 
 /// As the source would say it for a field of so many bits: `power(8, 127/255)`.
 std::string describe(const Code& code, int bits);
+
+/// The halving code of a parameter's component over a range; nothing unless the range ends below
+/// the parameter's and the default lies inside.
+std::optional<Code> halving(const Parameter& parameter, int component, const Range& range,
+                            int pivot);
 
 /// A value that a code must decode to, without any rounding.
 struct Anchor {

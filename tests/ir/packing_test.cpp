@@ -122,6 +122,33 @@ TEST_CASE("every code of every width comes back under any rounding")
     }
 }
 
+TEST_CASE("halving codes come back, and the default is exact")
+{
+    for (int bits = 2; bits <= 12; ++bits) {
+        const int last = (1 << bits) - 1;
+        for (const auto& [range, carried, value] :
+             std::vector<std::tuple<ir::Range, ir::Range, double>>{
+                 {{0, 1}, {0, 0.9375}, 0.75}, {{-1, 1}, {-1, 0.9}, 0}, {{1, 14}, {1, 13}, 2}}) {
+            CAPTURE(bits, carried.high);
+            const ir::Parameter parameter = scalar("p", range, value);
+            ir::Field halved = field(0, bits, carried);
+            const double halvings =
+                std::log2((range.high - value) / (range.high - carried.low)) /
+                std::log2((range.high - carried.high) / (range.high - carried.low));
+            const int pivot = std::max(1, static_cast<int>(last * halvings));
+            halved.code = *ir::halving(parameter, 0, carried, pivot);
+            const Stored stored{parameter, halved};
+            check_round_trip(stored);
+            const auto at = static_cast<std::size_t>(pivot);
+            CHECK(stored.decoded<Acceptance>()[at] == Acceptance{value, value});
+        }
+    }
+    const ir::Parameter parameter = scalar("p", {0, 1}, 0.75);
+    CHECK_FALSE(ir::halving(parameter, 0, {0, 1}, 1).has_value());
+    CHECK_FALSE(ir::halving(parameter, 0, {0, 0.5}, 1).has_value());
+    CHECK_FALSE(ir::halving(parameter, 0, {0.75, 0.9}, 1).has_value());
+}
+
 TEST_CASE("a signed field has an exact 0 and exact ends")
 {
     for (int bits = 2; bits <= 12; ++bits) {
