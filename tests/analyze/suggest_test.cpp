@@ -303,7 +303,7 @@ TEST_CASE("a suggestion uses the room, keeps defaults and says its error", "[sug
 
     // A block that has its fields, and the clause that narrows where it has to work.
     CHECK(found.text.starts_with("packing toy on g {\n  d.r"));
-    CHECK(found.text.find("= gain : unorm ") != std::string::npos);
+    CHECK(found.text.find("= gain  : unorm ") != std::string::npos);
     CHECK(found.text.find("code power(") != std::string::npos);
     CHECK(found.text.find("  supports quality == high\n") != std::string::npos);
 }
