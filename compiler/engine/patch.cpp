@@ -18,23 +18,28 @@ namespace {
 bool is_engine(const EditList& list, const Survey& survey, const Answers& answers,
                std::vector<Obstacle>& obstacles)
 {
-    std::vector<std::string> needed;
-    std::size_t found = 0;
+    std::size_t needed = 0;
+    std::vector<std::string> missing;
     for (std::size_t i = 0; i < list.files.size(); ++i) {
         const TreeFile& file = list.files[i];
         const Condition& condition = file.condition;
         if (file.optional || condition.since || condition.until || !holds(condition, answers))
             continue;
-        needed.push_back(file.path);
-        if (survey.files[i].bytes) ++found;
+        ++needed;
+        if (!survey.files[i].bytes) missing.push_back(file.path);
     }
-    if (2 * found >= needed.size()) return true;
+    if (2 * missing.size() <= needed) return true;
+    constexpr std::size_t most = 4;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(most, missing.size()); ++i)
+        names += fmt::format("{}{}", i == 0 ? "" : ", ", missing[i]);
+    if (missing.size() > most) names += fmt::format(" and {} more", missing.size() - most);
     obstacles.push_back({{},
                          0,
                          {},
                          {},
-                         fmt::format("this is no engine's tree: it has {} of these {} files: {}",
-                                     found, needed.size(), fmt::join(needed, ", ")),
+                         fmt::format("this is no engine's tree: it lacks {} of {} files: {}",
+                                     missing.size(), needed, names),
                          "name the folder that has Engine/ in it"});
     return false;
 }

@@ -47,12 +47,22 @@ std::string refused_revert(const Files& files)
 
 TEST_CASE("a tree that is no engine is one obstacle", "[engine][refusal]")
 {
-    const std::string words = ":0: : this is no engine's tree: it has 0 of these 4 files: "
+    const std::string words = ":0: : this is no engine's tree: it lacks 4 of 4 files: "
                               "Build/Build.version, Shaders/Common.ush, Source/Types.h, "
                               "Source/Pass.cpp\n";
     CHECK(refused(Files{}) == words);
     CHECK(refused(Files{{"README", "x\n"}}) == words);
     CHECK(refused_revert(Files{}) == words);
+}
+
+TEST_CASE("of many files that are missing a few are named", "[engine][refusal]")
+{
+    const EditList list = list_of("file A\nfile B\nfile C\nfile D\nfile E\nfile F\n"
+                                  "file G\noptional\n");
+    CHECK(refused(plan_patch(tree_of({}), list, request_of("Gloss"))) ==
+          ":0: : this is no engine's tree: it lacks 6 of 6 files: A, B, C, D and 2 more\n");
+    const Files half = {{"A", ""}, {"B", ""}, {"C", ""}};
+    CHECK(plan_patch(tree_of(half), list, request_of("Gloss")).obstacles.size() == 3);
 }
 
 TEST_CASE("an engine of another version is one obstacle", "[engine][refusal]")
