@@ -47,6 +47,18 @@ void read_file(SurveyedFile& file, std::vector<Obstacle>& obstacles)
     file.regions = std::move(found.regions);
 }
 
+/// No path out of the tree, whatever a mark says.
+bool stays_inside(std::string_view path)
+{
+    if (path.empty() || path.starts_with('/')) return false;
+    for (std::size_t at = 0; at <= path.size();) {
+        const auto end = std::min(path.find('/', at), path.size());
+        if (path.substr(at, end - at) == "..") return false;
+        at = end + 1;
+    }
+    return true;
+}
+
 /// Adds the models that came after those that are known, because their regions say so or are
 /// inside of theirs; true if any.
 bool add_later(const std::vector<Region>& regions, bool inside, const std::string& model,
@@ -177,7 +189,7 @@ std::vector<std::string> named_new_files(const Survey& survey)
         for_each_region(file.regions, [&](const Region& region, int) {
             if (region.model != survey.model) return;
             for (const std::string& path : region.new_files)
-                if (!contains(paths, path)) paths.push_back(path);
+                if (stays_inside(path) && !contains(paths, path)) paths.push_back(path);
         });
     return paths;
 }

@@ -1,4 +1,5 @@
 // What stands in the way of a patch: everything at once, where it is, and nothing is planned.
+#include "engine/regions.h"
 #include "engine/tree.h"
 
 #include <catch2/catch.hpp>
@@ -163,6 +164,27 @@ TEST_CASE("a new file never takes the place of someone's", "[engine][refusal]")
     CHECK(refused(files) == "Shaders/Gloss.ush:1: : this generated file was edited by hand\n");
     CHECK(refused_revert(files) ==
           "Shaders/Gloss.ush:1: : this generated file was edited by hand\n");
+}
+
+TEST_CASE("a mark cannot name a file outside of the tree", "[engine][refusal]")
+{
+    // Hashes as whoever writes such a mark would give them.
+    LineHash content;
+    content.add("x");
+    const std::string victim = "// lobe Gloss new " + content.text() + "\nx\n";
+    for (const std::string path : {"../x", "/x", "a/../../x", "a/.."}) {
+        NewRegion region;
+        region.model = "Gloss";
+        region.name = "id";
+        region.number = region.total = 1;
+        region.new_files = {path};
+        Lines text;
+        write_region(region, text.lines);
+        const Files files = {{"F", to_bytes(text)}, {path, victim}, {"a/x..", victim}};
+        const Plan plan = plan_revert(tree_of(files), list_of("file F\n"), request_of("Gloss"));
+        REQUIRE(plan.changes.size() == 1);
+        CHECK(plan.changes[0].path == "F");
+    }
 }
 
 TEST_CASE("a patch that is there in half is an obstacle, and can be reverted", "[engine][refusal]")
