@@ -60,14 +60,17 @@ std::vector<CurvePoint> candidates(const Subject& subject, const Placed& placed,
     }
     if (range.low == -range.high && bits >= 2) consider(true, {});
     consider(false, code_like(Kind::square_root, "sqrt"));
+    const double unit =
+        ir::power_unit(subject.bare.parameters[placed.parameter], 0, placed.range);
     for (int exponent = 2; exponent <= most_exponent; ++exponent) {
         // The largest pivot that lets the last code reach the high end. In doubles: where rounding
         // decides, the next smaller one is as good.
         const int pivot = static_cast<int>(
-            std::floor(last / std::pow(std::max(size, 1.0), 1.0 / exponent) * (1 + 0x1p-40)));
-        if (pivot < 1 || (size == 1 && exponent == 2)) continue;  // which is sqrt
+            std::floor(last / std::pow(std::max(size / unit, 1.0), 1.0 / exponent) * (1 + 0x1p-40)));
+        if (pivot < 1 || (size == unit && exponent == 2)) continue;  // which is sqrt
         ir::Code code = code_like(Kind::power, "power");
         code.exponent = exponent;
+        code.unit = unit;
         code.pivot = pivot;
         consider(false, code);
     }
@@ -89,7 +92,8 @@ std::vector<CurvePoint> candidates(const Subject& subject, const Placed& placed,
             static_cast<int>(std::floor(last / ir::position(field, range.high) * (1 + 0x1p-40)));
         if (code.pivot >= 1) consider(false, code);
     }
-    for (const ir::Code& code : placed.declared) consider(false, code);
+    for (const ir::Field& field : placed.declared)
+        if (field.bits == bits && field.component == 0) consider(false, field.code);
     return found;
 }
 
@@ -134,6 +138,10 @@ ir::Field field_of(const Placed& placed, int component, const CurvePoint& point)
     field.is_signed = point.is_signed;
     field.range = placed.range;
     field.code = point.code;
+    for (const ir::Field& written : placed.declared)
+        if (written.bits == point.bits && written.component == component &&
+            written.code == point.code)
+            field.anchors = written.anchors;
     return field;
 }
 

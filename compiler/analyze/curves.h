@@ -17,8 +17,9 @@ namespace lobe::analyze {
 struct Placed {
     std::uint32_t parameter = 0;
     int components = 1;
-    ir::Range range{};                       ///< to be carried
-    std::vector<ir::Code> declared;          ///< codes of the source that it may use
+    ir::Range range{};                ///< to be carried
+    std::vector<ir::Field> declared;  ///< fields of the source whose codes are declared: what
+                                      ///< survives is known for their bits
     std::vector<std::size_t> coordinates{};  ///< per component: where it is in the box
 };
 

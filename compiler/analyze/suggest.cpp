@@ -39,9 +39,7 @@ std::vector<Placed> to_place(const ir::Module& module, const ir::Packing& from,
         for (const ir::Field& field : from.fields) {
             if (field.parameter != parameter) continue;
             one.range = field.range;
-            const bool known = std::ranges::find(one.declared, field.code) != one.declared.end();
-            if (field.code.kind == ir::Code::Kind::declared && !known)
-                one.declared.push_back(field.code);
+            if (field.code.kind == ir::Code::Kind::declared) one.declared.push_back(field);
         }
     }
     return placed;

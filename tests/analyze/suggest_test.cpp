@@ -402,3 +402,43 @@ TEST_CASE("a suggestion is the same on any number of threads", "[suggest]")
     for (std::size_t i = 0; i < one.trade.size(); ++i)
         CHECK(one.trade[i].measured == four.trade[i].measured);
 }
+
+TEST_CASE("a declared code is considered in the bits it was written for", "[suggest]")
+{
+    // u = (x / 4)^2 and back: 1 lies at 1/16, which is a code of no number of bits below 16, but
+    // for what was found of it when it was checked, as here for 4 bits: code 1 of 15 is near.
+    TwoGains toy;
+    tests::FunctionBuilder encode{"steep_encode"};
+    const auto x = encode.argument("x", 0, 4);
+    const auto part = encode(ir::Op::multiply, {x, encode.literal("0.25")});
+    ir::Field field;
+    field.parameter = 1;
+    field.bits = 4;
+    field.range = {0, 4};
+    field.code.kind = ir::Code::Kind::declared;
+    field.code.name = "steep";
+    field.code.encode = toy.add(encode.finish(encode(ir::Op::multiply, {part, part})));
+    tests::FunctionBuilder decode{"steep_decode"};
+    const auto u = decode.argument("u", 0, 1);
+    const auto root = decode(ir::Op::square_root, {u});
+    field.code.decode =
+        toy.add(decode.finish(decode(ir::Op::multiply, {root, decode.literal("4")})));
+    field.anchors = {{1, 1}};
+    analyze::Placed placed;
+    placed.parameter = 1;
+    placed.range = field.range;
+    placed.declared = {field};
+    const analyze::Subject subject = analyze::subject_of(toy.module, toy.packing, {placed});
+    // Without it: linear over [0, 4] has 1 on a code only where its pivot is a multiple of 4.
+    analyze::Placed plain = placed;
+    plain.declared.clear();
+    const analyze::Subject without = analyze::subject_of(toy.module, toy.packing, {plain});
+    const auto with_code = analyze::fit_curves(subject, {0}, {4, 4}, 0)[0];
+    const auto without_code = analyze::fit_curves(without, {0}, {4, 4}, 0)[0];
+    REQUIRE(with_code.size() == 1);
+    REQUIRE(without_code.size() == 1);
+    CHECK(with_code[0].point.error <= without_code[0].point.error);
+    const ir::Field made = analyze::field_of(placed, 0, {4, false, field.code, 0});
+    CHECK(made.anchors == field.anchors);
+    CHECK(analyze::field_of(placed, 0, {5, false, field.code, 0}).anchors.empty());
+}
