@@ -259,11 +259,12 @@ private:
     /// What it was, for people.
     std::string run_round_trip(std::size_t index)
     {
-        const auto [packing, target] = trips_[index];
+        const std::size_t packing = trips_[index].first;
+        const emit::Target& target = *trips_[index].second;
         std::call_once(trip_begun_[packing],
                        [&] { trip_references_[packing] = trip_reference(module_, packing); });
         RoundTrip& trip = out_.round_trips[index];
-        trip = round_trip(module_, sources_, packing, *target, trip_references_[packing],
+        trip = round_trip(module_, sources_, packing, target, trip_references_[packing],
                           device_ ? &*device_ : nullptr);
         return fmt::format("{}, {}", trip.packing, trip.target);
     }

@@ -70,8 +70,9 @@ struct BxdfCheck {
     Harness harness;          ///< its inputs are those of the function's entry point
 };
 /// Every output of every BxDF of a module; where the model is packed once more, as the module's and
-/// the packing's file are in the engine: then its parameters come out of the GBuffer. Not those that share a member of the engine's result,
-/// and not those of models with a tangent frame, whose context the stand-in does not define.
+/// the packing's file are in the engine: then its parameters come out of the GBuffer. Not those
+/// that share a member of the engine's result, and not those of models with a tangent frame, whose
+/// context the stand-in does not define.
 std::vector<BxdfCheck> bxdf_checks(const ir::Module& module, const Sources& sources);
 
 /// Text that makes an artifact a whole shader for its judge: the version line, the stand-in
