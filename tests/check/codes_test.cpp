@@ -1,5 +1,5 @@
 // Codes that a source declares, and what a field's `code` says.
-#include "check/layouts.h"
+#include "check/checking_layouts.h"
 
 #include <catch2/catch.hpp>
 

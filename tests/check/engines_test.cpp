@@ -1,5 +1,5 @@
 // Engine blocks: what the editor offers, and whether it reaches the packing.
-#include "check/layouts.h"
+#include "check/checking_layouts.h"
 
 #include <catch2/catch.hpp>
 

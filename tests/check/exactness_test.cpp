@@ -1,6 +1,6 @@
 // What codes make of values: what is refused, what is said about it, and that what is proposed
 // works.
-#include "check/layouts.h"
+#include "check/checking_layouts.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Gbuffers: conditions become sets of configurations, facts of targets hold for their channels.
-#include "check/layouts.h"
+#include "check/checking_layouts.h"
 
 #include <catch2/catch.hpp>
 

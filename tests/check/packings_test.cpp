@@ -1,5 +1,5 @@
 // Packings: what a good one becomes, and what is said of one that its engine cannot hold.
-#include "check/layouts.h"
+#include "check/checking_layouts.h"
 
 #include <catch2/catch.hpp>
 

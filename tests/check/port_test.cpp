@@ -6,7 +6,7 @@
 //
 // takes over a changed text after it was read.
 #include "base/render.h"
-#include "check/layouts.h"
+#include "check/checking_layouts.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "check/layouts.h"
+#include "check/checking_layouts.h"
 
 #include <catch2/catch.hpp>
 
