@@ -135,6 +135,7 @@ private:
                                           most_exponent),
                               {span_of(arguments()[0]), fmt::format("is {}", describe(*exponent))});
             code.exponent = static_cast<int>(*exponent);
+            code.unit = ir::power_unit(parameter_, field_.component, field_.range);
         }
         if (given > least || is_power || is_halving) {
             const auto pivot = read_pivot(arguments().back());

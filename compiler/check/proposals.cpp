@@ -36,12 +36,14 @@ std::optional<ir::Code> linear(ir::Field field, double part, const std::vector<d
     return code;
 }
 
-std::optional<ir::Code> power(ir::Field field, int exponent, const std::vector<double>& values)
+std::optional<ir::Code> power(ir::Field field, double unit, int exponent,
+                              const std::vector<double>& values)
 {
     field.code = {};
     field.code.kind = Kind::power;
     field.code.name = "power";
     field.code.exponent = exponent;
+    field.code.unit = unit;
     const auto pivot = reaching_pivot(field);
     return pivot ? with_pivot(field, *pivot, 0.75, values) : std::nullopt;
 }
@@ -55,12 +57,13 @@ std::optional<ir::Code> logarithm(ir::Field field, const std::vector<double>& va
     return pivot ? with_pivot(field, *pivot, 0.75, values) : std::nullopt;
 }
 
-std::optional<ir::Code> any_power(const ir::Field& field, const std::vector<double>& values)
+std::optional<ir::Code> any_power(const ir::Field& field, double unit,
+                                  const std::vector<double>& values)
 {
     if (field.code.kind == Kind::power)
-        if (auto code = power(field, field.code.exponent, values)) return code;
+        if (auto code = power(field, unit, field.code.exponent, values)) return code;
     for (const int exponent : {8, 4, 2, 16, 3, 6})
-        if (auto code = power(field, exponent, values)) return code;
+        if (auto code = power(field, unit, exponent, values)) return code;
     return std::nullopt;
 }
 
@@ -81,16 +84,17 @@ std::optional<ir::Code> code_for(const ir::Field& field, const ir::Parameter& pa
 {
     const bool has_powers =
         parameter.quantity == ir::Quantity::number || parameter.quantity == ir::Quantity::color;
+    const double unit = ir::power_unit(parameter, field.component, field.range);
     if (field.is_signed) return std::nullopt;
     if (!has_powers) return linear(field, 0.5, values);
     const bool curved = field.code.kind == Kind::power || field.code.kind == Kind::log2;
     if (field.code.kind == Kind::log2)
         if (auto code = logarithm(field, values)) return code;
     if (curved)
-        if (auto code = any_power(field, values)) return code;
+        if (auto code = any_power(field, unit, values)) return code;
     // A quarter of the codes is worth an easy decode; more is not.
     if (auto code = linear(field, 0.75, values)) return code;
-    if (auto code = any_power(field, values)) return code;
+    if (auto code = any_power(field, unit, values)) return code;
     return linear(field, 0.5, values);
 }
 

@@ -79,7 +79,9 @@ public:
             return write.rounded(write.times(write.apply(Op::square_root, part), last_));
         }
         case Code::Kind::power:
-            return up_to_last(write, write.rounded(write.times(root(write, above), pivot())));
+            return up_to_last(
+                write, write.rounded(
+                           write.times(root(write, write.times(above, 1 / code_.unit)), pivot())));
         case Code::Kind::log2: {
             const ExprId log = write.apply(Op::log2, write.add(kept, 1 - low_));
             return up_to_last(write, write.rounded(write.times(log, 1 / log_step())));
@@ -229,8 +231,8 @@ private:
         return result;
     }
 
-    /// low + (1 + (code - pivot) / pivot)^n: the base is 1 at the pivot, and 0 at code 0, whatever
-    /// is rounded.
+    /// low + unit (1 + (code - pivot) / pivot)^n: the base is 1 at the pivot, and 0 at code 0,
+    /// whatever is rounded.
     Decoded raised(Writer& write, ExprId code) const
     {
         const double p = pivot();
@@ -243,15 +245,17 @@ private:
         ExprId value = base;
         if (code_.exponent > 1)
             value = write.graph.apply(Op::power, {base, write.number(code_.exponent)}, write.span);
-        value = write.from(low_, value);
+        value = write.from(low_, write.times(value, code_.unit));
         // Far more than the roundings of 32 factors.
-        const double reached = low_ + std::pow(last_ / p, code_.exponent);
+        const double reached = low_ + code_.unit * std::pow(last_ / p, code_.exponent);
         const double margin = 0x1p-16 * (reached - low_);
         if (reached + margin > high_) value = write.at_most(value, high_);
         Decoded result{value, {}};
-        const bool sum_is_exact = as_read(low_) + 1 == as_read(low_ + 1);
+        const bool sum_is_exact =
+            as_read(low_) + as_read(code_.unit) == as_read(low_ + code_.unit) &&
+            as_read(code_.unit) == code_.unit;
         for (const Anchor& kept : kept_) {
-            const double there = low_ + std::pow(kept.code / p, code_.exponent);
+            const double there = low_ + code_.unit * std::pow(kept.code / p, code_.exponent);
             if ((kept.code == code_.pivot && sum_is_exact) || kept.code == 0 ||
                 (kept.value == high_ && there - margin >= high_))
                 result.exact.push_back(kept);
@@ -341,7 +345,11 @@ std::string encode_formula(const Field& field)
     case Code::Kind::square_root:
         return fmt::format("round({} * sqrt({}))", last, over(above, size));
     case Code::Kind::power:
-        return fmt::format("round({})", scaled(pivot, raised(above, code.exponent, "^(1/{})")));
+        return fmt::format(
+            "round({})",
+            scaled(pivot,
+                   raised(code.unit == 1 ? above : fmt::format("({})", over(above, code.unit)),
+                          code.exponent, "^(1/{})")));
     case Code::Kind::log2: {
         const std::string log = fmt::format("log2({})", sum("x", 1 - low));
         return code.pivot == 0
@@ -374,7 +382,8 @@ std::string decode_formula(const Field& field)
     switch (code.kind) {
     case Code::Kind::linear: return plus_low(field, over(scaled(size, "code"), pivot));
     case Code::Kind::square_root: return plus_low(field, scaled(size, part(last) + "^2"));
-    case Code::Kind::power: return plus_low(field, raised(part(pivot), code.exponent, "^{}"));
+    case Code::Kind::power:
+        return plus_low(field, scaled(code.unit, raised(part(pivot), code.exponent, "^{}")));
     case Code::Kind::log2:
         return sum(fmt::format("{}^{}", number_text(code.pivot == 0 ? 1 + size : 2), part(pivot)),
                    field.range.low - 1);

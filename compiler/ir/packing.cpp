@@ -25,6 +25,12 @@ std::string describe(const Code& code, int bits)
     return {};
 }
 
+double power_unit(const Parameter& parameter, int component, const Range& range)
+{
+    const double value = parameter.default_value[static_cast<std::size_t>(component)];
+    return value > range.low && value <= range.high ? value - range.low : 1;
+}
+
 std::optional<Code> halving(const Parameter& parameter, int component, const Range& range,
                             int pivot)
 {
@@ -59,7 +65,7 @@ double position(const Field& field, double value)
     switch (code.kind) {
     case Code::Kind::linear: return pivot * above / size;
     case Code::Kind::square_root: return last * std::sqrt(above / size);
-    case Code::Kind::power: return pivot * std::pow(above, 1.0 / code.exponent);
+    case Code::Kind::power: return pivot * std::pow(above / code.unit, 1.0 / code.exponent);
     case Code::Kind::log2:
         return pivot * std::log2(1 + above) / (code.pivot == 0 ? std::log2(1 + size) : 1);
     case Code::Kind::halving: {
@@ -99,9 +105,10 @@ std::vector<double> kept_values(const Module& module, const Packing& packing, co
     add(parameter.default_value[static_cast<std::size_t>(field.component)]);
     for (const ExactRequirement& required : packing.exact)
         if (required.parameter == field.parameter) add(required.value);
-    const bool unit_above_low =
+    const bool has_unit =
         field.code.kind == Code::Kind::power || field.code.kind == Code::Kind::log2;
-    if (unit_above_low && field.range.low + 1 <= field.range.high) add(field.range.low + 1);
+    const double unit = field.code.kind == Code::Kind::power ? field.code.unit : 1;
+    if (has_unit && field.range.low + unit <= field.range.high) add(field.range.low + unit);
     if (field.is_signed) add(0);
     for (const Anchor& anchor : field.anchors) add(anchor.value);
     return values;

@@ -37,7 +37,8 @@ struct Slot {
 ///
 ///   linear(pivot)     u = pivot (x - low) / (high - low); pivot 1 uses every code
 ///   square_root       u = sqrt((x - low) / (high - low))
-///   power(n, pivot)   u = pivot (x - low)^(1/n): low + 1 is stored at the pivot
+///   power(n, pivot)   u = pivot ((x - low) / unit)^(1/n): the default is stored at the pivot,
+///                     or low + 1 where the default is the low end
 ///   log2(pivot)       u = pivot log2(1 + x - low): low + 1 is stored at the pivot; without a
 ///                     pivot the high end is stored at 1
 ///   halving(pivot)    u = pivot log2((top - x) / (top - low)) / log2((top - d) / (top - low)),
@@ -60,6 +61,7 @@ struct Code {
     Kind kind = Kind::linear;
     int exponent = 1;             ///< of power: 1 .. 32
     int pivot = 0;                ///< as a code, 1 .. last; 0: none
+    double unit = 1;              ///< of power: how far above the low end the pivot's value is
     double top = 0;               ///< of halving
     double at_pivot = 0;          ///< of halving: the value that is stored there
     FunctionId encode;            ///< declared: value -> u, over the reals
@@ -70,6 +72,9 @@ struct Code {
 
 /// As the source would say it for a field of so many bits: `power(8, 127/255)`.
 std::string describe(const Code& code, int bits);
+
+/// How far above the low end a power has its pivot.
+double power_unit(const Parameter& parameter, int component, const Range& range);
 
 /// The halving code of a parameter's component over a range; nothing unless the range ends below
 /// the parameter's and the default lies inside.

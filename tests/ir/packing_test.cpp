@@ -122,6 +122,26 @@ TEST_CASE("every code of every width comes back under any rounding")
     }
 }
 
+TEST_CASE("a power has the default at its pivot, whatever that is")
+{
+    for (int bits = 3; bits <= 12; ++bits) {
+        const ir::Parameter parameter = scalar("p", {0, 1}, 0.5);
+        ir::Field raised = field(0, bits, {0, 0.875});
+        CHECK(ir::power_unit(parameter, 0, raised.range) == 0.5);
+        for (const int exponent : {2, 3, 8}) {
+            CAPTURE(bits, exponent);
+            raised.code = power(
+                exponent, static_cast<int>(raised.last_code() / std::pow(1.75, 1.0 / exponent)));
+            raised.code.unit = 0.5;
+            const Stored stored{parameter, raised};
+            check_round_trip(stored);
+            const auto at = static_cast<std::size_t>(raised.code.pivot);
+            CHECK(stored.decoded<Acceptance>()[at] == Acceptance{0.5, 0.5});
+        }
+    }
+    CHECK(ir::power_unit(scalar("p", {0, 1}, 0), 0, {0, 1}) == 1);
+}
+
 TEST_CASE("halving codes come back, and the default is exact")
 {
     for (int bits = 2; bits <= 12; ++bits) {
