@@ -1,0 +1,239 @@
+// `lobec patch`: a model into an engine's source tree, as a diff or in place; and out again.
+#include "report/patch.h"
+
+#include "cli/commands.h"
+#include "cli/engine_tree.h"
+#include "cli/files.h"
+#include "cli/program.h"
+#include "emit/engine_values.h"
+#include "emit/template.h"
+#include "engine/diff.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+namespace lobe::cli {
+namespace {
+
+/// The edit list that the compiler ships; one that does not parse is a bug of ours.
+engine::ParsedEdits shipped_edits()
+{
+    return engine::parse_edits(*emit::embedded_template("ue4/engine.edits"));
+}
+
+/// What one engine block asks of a tree.
+struct Wanted {
+    engine::Request request;
+    std::string node;              ///< the custom output's function; empty without one
+    std::vector<int> node_inputs;  ///< components of each of its inputs
+};
+
+std::string file_name(const std::string& path)
+{
+    return std::filesystem::path{path}.filename().string();
+}
+
+std::string upper(std::string text)
+{
+    for (char& c : text)
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    return text;
+}
+
+/// A tree in which some files are as a plan would have them.
+analyze::EngineShaders::Read overlaid(const engine::Tree& tree,
+                                      const std::vector<engine::Change>& changes)
+{
+    return [&tree, &changes](const std::string& path) -> std::optional<std::string> {
+        const auto found = std::ranges::find(changes, path, &engine::Change::path);
+        return found == changes.end() ? tree.read(path) : found->after;
+    };
+}
+
+struct Patch {
+    std::string input;
+    std::string tree;
+    std::string shading_model;
+    std::string output;
+    std::string json;
+    bool apply = false;
+    bool revert = false;
+    bool check = false;
+    bool skip_shaders = false;
+
+    int run(const Terminal& terminal) const
+    {
+        if (apply + revert + check + !output.empty() > 1)
+            return fail(terminal, "--apply, --revert, --check and -o exclude each other");
+        if (output == "-" && json == "-")
+            return fail(terminal, "only one of -o and --json can be standard output");
+        if (!std::filesystem::is_directory(tree))
+            return fail(terminal, fmt::format("{} is no folder", tree));
+        if (is_interrupted(tree)) {
+            if (!apply && !revert)
+                return fail(terminal, fmt::format("a change of {} was interrupted; run `lobec "
+                                                  "patch` with --apply or --revert, which "
+                                                  "finishes it first",
+                                                  tree));
+            if (std::string why = finish_interrupted(tree); !why.empty())
+                return fail(terminal, why);
+        }
+
+        const engine::ParsedEdits edits = shipped_edits();
+        if (!edits.error.empty()) return fail(terminal, "engine.edits:" + edits.error);
+        const Program program = load(terminal, {input});
+        print(terminal, program.diagnostics, program.sources);
+        if (program.status != success) return program.status;
+        const auto wanted = choose(terminal, program);
+        return wanted ? patch(terminal, edits.list, *wanted) : broken;
+    }
+
+    /// The engine block that the command is about, with everything that it needs.
+    std::optional<Wanted> choose(const Terminal& terminal, const Program& program) const
+    {
+        std::string names;
+        for (const ir::Module& checked : program.modules) {
+            for (std::size_t i = 0; i < checked.engines.size(); ++i) {
+                const std::string& name = checked.engines[i].shading_model;
+                names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+                if (!shading_model.empty() && name != shading_model) continue;
+                if (shading_model.empty() && checked.engines.size() > 1) continue;
+                return want(terminal, program, checked, i);
+            }
+        }
+        if (names.empty())
+            fail(terminal,
+                 fmt::format("{} has no `engine` block, so there is nothing to patch", input));
+        else if (shading_model.empty())
+            fail(terminal, fmt::format("{} has several shading models, choose one with --model: {}",
+                                       input, names));
+        else
+            fail(terminal, fmt::format("{} has no shading model `{}`; it has {}", input,
+                                       shading_model, names));
+        return std::nullopt;
+    }
+
+    std::optional<Wanted> want(const Terminal& terminal, const Program& program,
+                               const ir::Module& checked, std::size_t index) const
+    {
+        const ir::Module module = middle(checked);
+        const ir::Engine& block = module.engines[index];
+        const auto packing = emit::packing_of(module, block);
+        const auto values = packing ? emit::engine_values(module, block, *packing) : std::nullopt;
+        if (!values) {
+            fail(terminal, fmt::format("`{}` needs a packing on {} in channels that shaders of the "
+                                       "engine can name",
+                                       block.shading_model, block.gbuffer));
+            return std::nullopt;
+        }
+        Wanted wanted;
+        wanted.request = {values->model, values->values, values->words, {}};
+        for (emit::Artifact& artifact : back(module, program.sources, {emit::find_target("ue4")}))
+            wanted.request.files.emplace_back(file_name(artifact.path), std::move(artifact.text));
+        if (!block.node) return wanted;
+        wanted.node = block.node->name;
+        for (const std::uint32_t parameter : block.node->parameters)
+            wanted.node_inputs.push_back(ir::components(module.parameters[parameter].type));
+        return wanted;
+    }
+
+    int patch(const Terminal& terminal, const engine::EditList& list, const Wanted& wanted) const
+    {
+        const engine::Tree files = disk_tree(tree);
+        report::PatchReport result;
+        result.model = wanted.request.model;
+        result.reverts = revert;
+        result.plan = revert ? engine::plan_revert(files, list, wanted.request)
+                             : engine::plan_patch(files, list, wanted.request);
+        if (!revert && !skip_shaders && result.plan.obstacles.empty())
+            result.shaders = check_shaders(files, list, wanted, result.plan.changes);
+
+        const int status = carry_out(terminal, result);
+        if (!json.empty() && status != broken) {
+            const std::string text = report::patch_json(result);
+            if (json == "-") {
+                fmt::print("{}", text);
+            } else if (const Written written = write_files({{json, text}}); !written.why.empty()) {
+                return fail(terminal, written.why);
+            }
+        }
+        return status;
+    }
+
+    static std::vector<analyze::EngineShaderVerdict>
+    check_shaders(const engine::Tree& files, const engine::EditList& list, const Wanted& wanted,
+                  const std::vector<engine::Change>& changes)
+    {
+        // The tree may hold an earlier patch; without it, it is the engine's own.
+        const engine::Plan clean = engine::plan_revert(files, list, wanted.request);
+        return analyze::check_engine_shaders({.original = overlaid(files, clean.changes),
+                                              .patched = overlaid(files, changes),
+                                              .folder = "Engine/Shaders/Private",
+                                              .shading_model = upper(wanted.request.model),
+                                              .node_function = wanted.node,
+                                              .node_inputs = wanted.node_inputs});
+    }
+
+    int carry_out(const Terminal& terminal, report::PatchReport& result) const
+    {
+        const report::Look look{terminal.color_on_stderr(), 0};
+        fmt::print(stderr, "{}{}", report::patch_obstacles(result, look),
+                   report::patch_shaders(result, look));
+        if (!result.ok()) return findings;
+        const auto& changes = result.plan.changes;
+        if (apply || revert) {
+            if (std::string why = apply_changes(tree, changes); !why.empty())
+                return fail(terminal, why + "; the tree is as it was");
+            result.applied = true;
+        } else if (!check) {
+            const std::string diff = engine::unified_diff(changes);
+            if (output.empty() || output == "-") {
+                if (json != "-") fmt::print("{}", diff);
+            } else if (const Written written = write_files({{output, diff}});
+                       !written.why.empty()) {
+                return fail(terminal, written.why);
+            }
+        }
+        if (!terminal.quiet) fmt::print(stderr, "{}", report::patch_summary(result, look));
+        return check && !changes.empty() ? findings : success;
+    }
+};
+
+}  // namespace
+
+void add_patch(CLI::App& app, const Terminal& terminal, int& status)
+{
+    auto* command = app.add_subcommand(
+        "patch", "Make, apply, check or take back the patch of an Unreal Engine 4 source tree");
+    auto patch = std::make_shared<Patch>();
+    command->add_option("FILE", patch->input, "A .lobe file with an engine block")->required();
+    command->add_option("--engine", patch->tree, "The engine's source tree: the folder of Engine/")
+        ->required();
+    command->add_option("--model", patch->shading_model,
+                        "The shading model, where the file has several");
+    command->add_option("-o,--output", patch->output, "Write the diff here (default: to stdout)");
+    command->add_flag("--apply", patch->apply, "Change the tree: all files or none");
+    command->add_flag("--revert", patch->revert,
+                      "Take the model out of the tree again, to the byte");
+    command->add_flag("--check", patch->check,
+                      "Write nothing; exit 1 when the tree is not what the model makes of it");
+    command->add_flag("--skip-shaders", patch->skip_shaders,
+                      "Do not compile the patched tree's shaders");
+    command->add_option("--json", patch->json, "Write what was found and done as JSON");
+    command->footer("Reads Unreal Engine 4.25 to 4.27, with local changes. Every edit is a region "
+                    "between marked\n"
+                    "lines; running it again replaces the regions, and nothing outside of them is "
+                    "touched. The\n"
+                    "shading model's number is computed from the tree. Obstacles are reported all "
+                    "at once, and\n"
+                    "then nothing is written.\n"
+                    "Examples:\n"
+                    "  lobec patch models/callisto.lobe --engine ~/UnrealEngine -o callisto.patch\n"
+                    "  lobec patch models/callisto.lobe --engine ~/UnrealEngine --apply");
+    command->callback([patch, &terminal, &status] { status = patch->run(terminal); });
+}
+
+}  // namespace lobe::cli
