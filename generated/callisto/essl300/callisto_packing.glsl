@@ -6,316 +6,222 @@
 //
 // callisto on ue4
 //
-// The eight scalars of the base and advanced tiers in the four channels that are always free.
+// The base tier, in the channels that are free.
 //
 // GBufferD   7   6   5   4   3   2   1   0
 //          +-----------------------+-------+
 // d.r      | 1 diffuse_fresnel     | 2     |  CustomData.x
 //          +---------------+-------+-------+
 // d.g      | 2             | 3             |  CustomData.y
-//          +---+-----------+-------+-------+
-// d.b      | 3 | 4                 | 5     |  CustomData.z
-//          +---+---+-----------+---+---+---+
-// d.a      | 5     | 6         | 7     | 8 |  CustomData.w
-//          +-------+-----------+-------+---+
+//          +-------+-------+---------------+
+// d.b      | 3     | 4 smooth_terminator   |  CustomData.z
+//          +-------+-----------------------+
+// d.a      | 5 retroreflection             |  CustomData.w
+//          +-------------------------------+
 //
-//   field                          bits                  code                     carries
-// 1 diffuse_fresnel                d.r[2..7]             unorm 6 power(8, 31/63)  [0, 256]
-// 2 retroreflection                d.r[0..1], d.g[4..7]  unorm 6 power(8, 31/63)  [0, 256]
-// 3 diffuse_fresnel_falloff        d.g[0..3], d.b[7]     unorm 5 linear(30/31)    [0, 0.9375]
-// 4 retroreflection_falloff        d.b[2..6]             unorm 5 linear(30/31)    [0, 0.9375]
-// 5 smooth_terminator              d.b[0..1], d.a[6..7]  snorm 4 linear           [-1, 1]
-// 6 specular_fresnel_falloff       d.a[3..5]             unorm 3 linear           [0, 0.875]
-// 7 dual_specular_roughness_scale  d.a[1..2]             unorm 2 power(8, 2/3)    [1, 14]
-// 8 dual_specular_opacity          d.a[0]                unorm 1 linear           [0, 1]
+//   field                    bits                  code                        carries
+// 1 diffuse_fresnel          d.r[2..7]             unorm 6 power(6, 25/63)     [0, 256]
+// 2 diffuse_fresnel_falloff  d.r[0..1], d.g[4..7]  unorm 6 halving(42/63)      [0, 0.875]
+// 3 retroreflection_falloff  d.g[0..3], d.b[6..7]  unorm 6 halving(42/63)      [0, 0.875]
+// 4 smooth_terminator        d.b[0..5]             unorm 6 halving(12/63)      [-1, 0.9375]
+// 5 retroreflection          d.a                   unorm 8 power(11, 154/255)  [0, 256]
 #ifndef LOBE_CALLISTO_PACKING_GLSL
 #define LOBE_CALLISTO_PACKING_GLSL
 
 precision highp float;
 
-// The code of diffuse_fresnel: 64 codes over [0, 256], power(8, 31/63).
-// = round(31 * x^(1/8))
+// The code of diffuse_fresnel: 64 codes over [0, 256], power(6, 25/63).
+// = round(25 * x^(1/6))
 // Returns [0, 63].
-// models/callisto.lobe:198
+// models/callisto.lobe:201
 float encode_diffuse_fresnel(float x)
 {
-    return floor(sqrt(sqrt(sqrt(clamp(x, 0.0, 256.0)))) * 31.0 + 0.5);
+    return floor(pow(clamp(x, 0.0, 256.0), 0.16666667) * 25.0 + 0.5);
 }
 
-// Bits 2..7 of d.r: diffuse_fresnel, 64 codes over [0, 256], power(8, 31/63).
-// = (code / 31)^8
+// Bits 2..7 of d.r: diffuse_fresnel, 64 codes over [0, 256], power(6, 25/63).
+// = (code / 25)^6
 // Expects code in [0, 63]. Returns [0, 256].
-// models/callisto.lobe:198
+// models/callisto.lobe:201
 float decode_diffuse_fresnel(float code)
 {
-    float base = max(1.0 + (code - 31.0) * 0.032258067, 0.0);
+    float base = max(1.0 + (code - 25.0) * 0.040000003, 0.0);
     float base2 = base * base;
-    float base4 = base2 * base2;
-    return min(base4 * base4, 256.0);
+    return min(base2 * base2 * base2, 256.0);
 }
 
-// The code of retroreflection: 64 codes over [0, 256], power(8, 31/63).
-// = round(31 * x^(1/8))
+// The code of diffuse_fresnel_falloff: 64 codes over [0, 0.875], halving(42/63).
+// = round(42 * log2((1 - x)) / -2)
 // Returns [0, 63].
-// models/callisto.lobe:199
-float encode_retroreflection(float x)
-{
-    return floor(sqrt(sqrt(sqrt(clamp(x, 0.0, 256.0)))) * 31.0 + 0.5);
-}
-
-// Bits 0..1 of d.r, bits 4..7 of d.g: retroreflection, 64 codes over [0, 256], power(8, 31/63).
-// = (code / 31)^8
-// Expects code in [0, 63]. Returns [0, 256].
-// models/callisto.lobe:199
-float decode_retroreflection(float code)
-{
-    float base = max(1.0 + (code - 31.0) * 0.032258067, 0.0);
-    float base2 = base * base;
-    float base4 = base2 * base2;
-    return min(base4 * base4, 256.0);
-}
-
-// The code of diffuse_fresnel_falloff: 32 codes over [0, 0.9375], linear(30/31).
-// = round(30 * x / 0.9375)
-// Returns [0, 31].
-// models/callisto.lobe:200
+// models/callisto.lobe:202
 float encode_diffuse_fresnel_falloff(float x)
 {
-    return floor(clamp(x, 0.0, 0.9375) * 32.0 + 0.5);
+    return floor(log2(1.0 - clamp(x, 0.0, 0.875)) * -21.0 + 0.5);
 }
 
-// Bits 0..3 of d.g, bit 7 of d.b: diffuse_fresnel_falloff, 32 codes over [0, 0.9375],
-// linear(30/31).
-// = 0.9375 * code / 30
-// Expects code in [0, 31]. Returns [0, 0.9375].
-// models/callisto.lobe:200
+// Bits 0..1 of d.r, bits 4..7 of d.g: diffuse_fresnel_falloff, 64 codes over [0, 0.875],
+// halving(42/63).
+// = 1 - 0.25^(code / 42)
+// Expects code in [0, 63]. Returns [0, 0.875].
+// models/callisto.lobe:202
 float decode_diffuse_fresnel_falloff(float code)
 {
-    return min(0.75 + (code - 24.0) * 0.03125, 0.9375);
+    return code == 42.0 ? 0.75 : clamp(1.0 - exp2(code * -0.04761905), 0.0, 0.875);
 }
 
-// The code of retroreflection_falloff: 32 codes over [0, 0.9375], linear(30/31).
-// = round(30 * x / 0.9375)
-// Returns [0, 31].
-// models/callisto.lobe:201
+// The code of retroreflection_falloff: 64 codes over [0, 0.875], halving(42/63).
+// = round(42 * log2((1 - x)) / -2)
+// Returns [0, 63].
+// models/callisto.lobe:203
 float encode_retroreflection_falloff(float x)
 {
-    return floor(clamp(x, 0.0, 0.9375) * 32.0 + 0.5);
+    return floor(log2(1.0 - clamp(x, 0.0, 0.875)) * -21.0 + 0.5);
 }
 
-// Bits 2..6 of d.b: retroreflection_falloff, 32 codes over [0, 0.9375], linear(30/31).
-// = 0.9375 * code / 30
-// Expects code in [0, 31]. Returns [0, 0.9375].
-// models/callisto.lobe:201
+// Bits 0..3 of d.g, bits 6..7 of d.b: retroreflection_falloff, 64 codes over [0, 0.875],
+// halving(42/63).
+// = 1 - 0.25^(code / 42)
+// Expects code in [0, 63]. Returns [0, 0.875].
+// models/callisto.lobe:203
 float decode_retroreflection_falloff(float code)
 {
-    return min(0.75 + (code - 24.0) * 0.03125, 0.9375);
+    return code == 42.0 ? 0.75 : clamp(1.0 - exp2(code * -0.04761905), 0.0, 0.875);
 }
 
-// The code of smooth_terminator: 15 codes over [-1, 1], linear.
-// = round(7 + 7 * x)
-// Returns [0, 14].
-// models/callisto.lobe:202
+// The code of smooth_terminator: 64 codes over [-1, 0.9375], halving(12/63).
+// = round(12 * log2((1 - x) / 2) / -1)
+// Returns [0, 63].
+// models/callisto.lobe:204
 float encode_smooth_terminator(float x)
 {
-    return floor(clamp(x, -1.0, 1.0) * 7.0 + 7.5);
+    return floor(log2((1.0 - clamp(x, -1.0, 0.9375)) * 0.5) * -12.0 + 0.5);
 }
 
-// Bits 0..1 of d.b, bits 6..7 of d.a: smooth_terminator, 15 codes over [-1, 1], linear.
-// = (code - 7) / 7
-// Expects code in [0, 14]. Returns [-1, 1].
-// models/callisto.lobe:202
+// Bits 0..5 of d.b: smooth_terminator, 64 codes over [-1, 0.9375], halving(12/63).
+// = 1 - 2 * 0.5^(code / 12)
+// Expects code in [0, 63]. Returns [-1, 0.9375].
+// models/callisto.lobe:204
 float decode_smooth_terminator(float code)
 {
-    return min(max((code - 7.0) * 0.14285715, -1.0), 1.0);
+    float t0 = clamp(1.0 - exp2(code * -0.083333336) * 2.0, -1.0, 0.9375);
+    return code == 12.0 ? 0.0 : t0;
 }
 
-// The code of specular_fresnel_falloff: 8 codes over [0, 0.875], linear.
-// = round(7 * x / 0.875)
-// Returns [0, 7].
-// models/callisto.lobe:203
-float encode_specular_fresnel_falloff(float x)
+// The code of retroreflection: 256 codes over [0, 256], power(11, 154/255).
+// = round(154 * x^(1/11))
+// Returns [0, 255].
+// models/callisto.lobe:205
+float encode_retroreflection(float x)
 {
-    return floor(clamp(x, 0.0, 0.875) * 8.0 + 0.5);
+    return floor(pow(clamp(x, 0.0, 256.0), 0.09090909) * 154.0 + 0.5);
 }
 
-// Bits 3..5 of d.a: specular_fresnel_falloff, 8 codes over [0, 0.875], linear.
-// = 0.875 * code / 7
-// Expects code in [0, 7]. Returns [0, 0.875].
-// models/callisto.lobe:203
-float decode_specular_fresnel_falloff(float code)
+// d.a: retroreflection, 256 codes over [0, 256], power(11, 154/255).
+// = (code / 154)^11
+// Expects code in [0, 255]. Returns [0, 256].
+// models/callisto.lobe:205
+float decode_retroreflection(float code)
 {
-    return 0.5 + (code - 4.0) * 0.125;
-}
-
-// The code of dual_specular_roughness_scale: 4 codes over [1, 14], power(8, 2/3).
-// = round(2 * (x - 1)^(1/8))
-// Returns [0, 3].
-// models/callisto.lobe:204
-float encode_dual_specular_roughness_scale(float x)
-{
-    return floor(sqrt(sqrt(sqrt(clamp(x, 1.0, 14.0) - 1.0))) * 2.0 + 0.5);
-}
-
-// Bits 1..2 of d.a: dual_specular_roughness_scale, 4 codes over [1, 14], power(8, 2/3).
-// = 1 + (code / 2)^8
-// Expects code in [0, 3]. Returns [1, 14].
-// models/callisto.lobe:204
-float decode_dual_specular_roughness_scale(float code)
-{
-    float base = 1.0 + (code - 2.0) * 0.5;
+    float base = max(1.0 + (code - 154.0) * 0.006493507, 0.0);
     float base2 = base * base;
     float base4 = base2 * base2;
-    return min(1.0 + base4 * base4, 14.0);
+    return min(base4 * base4 * base2 * base, 256.0);
 }
 
-// The code of dual_specular_opacity: 2 codes over [0, 1], linear.
-// = round(x)
+// What d.r stores (CustomData.x): diffuse_fresnel in bits 2..7, diffuse_fresnel_falloff in bits
+// 0..1 (2 of its 6 bits).
 // Returns [0, 1].
-// models/callisto.lobe:205
-float encode_dual_specular_opacity(float x)
-{
-    return floor(clamp(x, 0.0, 1.0) + 0.5);
-}
-
-// What d.r stores (CustomData.x): diffuse_fresnel in bits 2..7, retroreflection in bits 0..1 (2 of
-// its 6 bits).
-// Returns [0, 1].
-// models/callisto.lobe:197
-float pack_d_r(float diffuse_fresnel, float retroreflection)
+// models/callisto.lobe:200
+float pack_d_r(float diffuse_fresnel, float diffuse_fresnel_falloff)
 {
     float diffuse_fresnel_code = encode_diffuse_fresnel(diffuse_fresnel);
-    float retroreflection_code = encode_retroreflection(retroreflection);
-    float t0 = diffuse_fresnel_code * 4.0 + floor(retroreflection_code * 0.0625);
+    float diffuse_fresnel_falloff_code = encode_diffuse_fresnel_falloff(diffuse_fresnel_falloff);
+    float t0 = diffuse_fresnel_code * 4.0 + floor(diffuse_fresnel_falloff_code * 0.0625);
     return t0 * 0.0039215684;
 }
 
-// What d.g stores (CustomData.y): retroreflection in bits 4..7 (4 of its 6 bits),
-// diffuse_fresnel_falloff in bits 0..3 (4 of its 5 bits).
+// What d.g stores (CustomData.y): diffuse_fresnel_falloff in bits 4..7 (4 of its 6 bits),
+// retroreflection_falloff in bits 0..3 (4 of its 6 bits).
 // Returns [0, 1].
-// models/callisto.lobe:197
-float pack_d_g(float diffuse_fresnel_falloff, float retroreflection)
+// models/callisto.lobe:200
+float pack_d_g(float diffuse_fresnel_falloff, float retroreflection_falloff)
+{
+    float diffuse_fresnel_falloff_code = encode_diffuse_fresnel_falloff(diffuse_fresnel_falloff);
+    float t0 = floor(diffuse_fresnel_falloff_code * 0.0625) * 16.0;
+    float retroreflection_falloff_code = encode_retroreflection_falloff(retroreflection_falloff);
+    float t1 = (diffuse_fresnel_falloff_code - t0) * 16.0;
+    return (t1 + floor(retroreflection_falloff_code * 0.25)) * 0.0039215684;
+}
+
+// What d.b stores (CustomData.z): retroreflection_falloff in bits 6..7 (2 of its 6 bits),
+// smooth_terminator in bits 0..5.
+// Returns [0, 1].
+// models/callisto.lobe:200
+float pack_d_b(float retroreflection_falloff, float smooth_terminator)
+{
+    float retroreflection_falloff_code = encode_retroreflection_falloff(retroreflection_falloff);
+    float t0 = floor(retroreflection_falloff_code * 0.25) * 4.0;
+    float smooth_terminator_code = encode_smooth_terminator(smooth_terminator);
+    float t1 = (retroreflection_falloff_code - t0) * 64.0 + smooth_terminator_code;
+    return t1 * 0.0039215684;
+}
+
+// What d.a stores (CustomData.w): retroreflection.
+// Returns [0, 1].
+// models/callisto.lobe:200
+float pack_d_a(float retroreflection)
 {
     float retroreflection_code = encode_retroreflection(retroreflection);
-    float diffuse_fresnel_falloff_code = encode_diffuse_fresnel_falloff(diffuse_fresnel_falloff);
-    float t0 = (retroreflection_code - floor(retroreflection_code * 0.0625) * 16.0) * 16.0;
-    return (t0 + floor(diffuse_fresnel_falloff_code * 0.5)) * 0.0039215684;
-}
-
-// What d.b stores (CustomData.z): diffuse_fresnel_falloff in bit 7 (1 of its 5 bits),
-// retroreflection_falloff in bits 2..6, smooth_terminator in bits 0..1 (2 of its 4 bits).
-// Returns [0, 1].
-// models/callisto.lobe:197
-float pack_d_b(float diffuse_fresnel_falloff, float retroreflection_falloff,
-    float smooth_terminator)
-{
-    float diffuse_fresnel_falloff_code = encode_diffuse_fresnel_falloff(diffuse_fresnel_falloff);
-    float t0 = floor(diffuse_fresnel_falloff_code * 0.5) * 2.0;
-    float retroreflection_falloff_code = encode_retroreflection_falloff(retroreflection_falloff);
-    float smooth_terminator_code = encode_smooth_terminator(smooth_terminator);
-    float t1 = (diffuse_fresnel_falloff_code - t0) * 128.0;
-    float t2 = t1 + retroreflection_falloff_code * 4.0;
-    return (t2 + floor(smooth_terminator_code * 0.25)) * 0.0039215684;
-}
-
-// What d.a stores (CustomData.w): smooth_terminator in bits 6..7 (2 of its 4 bits),
-// specular_fresnel_falloff in bits 3..5, dual_specular_roughness_scale in bits 1..2,
-// dual_specular_opacity in bit 0.
-// Returns [0, 1].
-// models/callisto.lobe:197
-float pack_d_a(float smooth_terminator, float specular_fresnel_falloff,
-    float dual_specular_roughness_scale, float dual_specular_opacity)
-{
-    float smooth_terminator_code = encode_smooth_terminator(smooth_terminator);
-    float specular_fresnel_falloff_code = encode_specular_fresnel_falloff(specular_fresnel_falloff);
-    float dual_specular_roughness_scale_code =
-        encode_dual_specular_roughness_scale(dual_specular_roughness_scale);
-    float dual_specular_opacity_code = encode_dual_specular_opacity(dual_specular_opacity);
-    float t0 = (smooth_terminator_code - floor(smooth_terminator_code * 0.25) * 4.0) * 64.0;
-    float t1 = t0 + specular_fresnel_falloff_code * 8.0;
-    float t2 = t1 + dual_specular_roughness_scale_code * 2.0 + dual_specular_opacity_code;
-    return t2 * 0.0039215684;
+    return retroreflection_code * 0.0039215684;
 }
 
 // diffuse_fresnel as it was stored: bits 2..7 of d.r.
 // Expects d_r in [0, 1]. Returns [0, 256].
-// models/callisto.lobe:198
+// models/callisto.lobe:201
 float unpack_diffuse_fresnel(float d_r)
 {
     float d_r_code = floor(d_r * 255.0 + 0.5);
     return decode_diffuse_fresnel(floor(d_r_code * 0.25));
 }
 
-// diffuse_fresnel_falloff as it was stored: bits 0..3 of d.g, bit 7 of d.b.
-// Expects d_g in [0, 1], d_b in [0, 1]. Returns [0, 1].
-// models/callisto.lobe:200
-float unpack_diffuse_fresnel_falloff(float d_g, float d_b)
-{
-    float d_g_code = floor(d_g * 255.0 + 0.5);
-    float d_b_code = floor(d_b * 255.0 + 0.5);
-    float t0 = (d_g_code - floor(d_g_code * 0.0625) * 16.0) * 2.0;
-    return decode_diffuse_fresnel_falloff(t0 + floor(d_b_code * 0.0078125));
-}
-
-// retroreflection as it was stored: bits 0..1 of d.r, bits 4..7 of d.g.
-// Expects d_r in [0, 1], d_g in [0, 1]. Returns [0, 256].
-// models/callisto.lobe:199
-float unpack_retroreflection(float d_r, float d_g)
+// diffuse_fresnel_falloff as it was stored: bits 0..1 of d.r, bits 4..7 of d.g.
+// Expects d_r in [0, 1], d_g in [0, 1]. Returns [0, 1].
+// models/callisto.lobe:202
+float unpack_diffuse_fresnel_falloff(float d_r, float d_g)
 {
     float d_r_code = floor(d_r * 255.0 + 0.5);
     float d_g_code = floor(d_g * 255.0 + 0.5);
     float t0 = (d_r_code - floor(d_r_code * 0.25) * 4.0) * 16.0 + floor(d_g_code * 0.0625);
-    return decode_retroreflection(t0);
+    return decode_diffuse_fresnel_falloff(t0);
 }
 
-// retroreflection_falloff as it was stored: bits 2..6 of d.b.
-// Expects d_b in [0, 1]. Returns [0, 1].
-// models/callisto.lobe:201
-float unpack_retroreflection_falloff(float d_b)
-{
-    float d_b_code = floor(d_b * 255.0 + 0.5);
-    float t0 = floor(d_b_code * 0.25) - floor(d_b_code * 0.0078125) * 32.0;
-    return decode_retroreflection_falloff(t0);
-}
-
-// smooth_terminator as it was stored: bits 0..1 of d.b, bits 6..7 of d.a.
-// Expects d_b in [0, 1], d_a in [0, 1]. Returns [-1, 1].
-// models/callisto.lobe:202
-float unpack_smooth_terminator(float d_b, float d_a)
-{
-    float d_b_code = floor(d_b * 255.0 + 0.5);
-    float d_a_code = floor(d_a * 255.0 + 0.5);
-    float t0 = (d_b_code - floor(d_b_code * 0.25) * 4.0) * 4.0 + floor(d_a_code * 0.015625);
-    return decode_smooth_terminator(t0);
-}
-
-// specular_fresnel_falloff as it was stored: bits 3..5 of d.a.
-// Expects d_a in [0, 1]. Returns [0, 1].
-// models/callisto.lobe:203
-float unpack_specular_fresnel_falloff(float d_a)
-{
-    float d_a_code = floor(d_a * 255.0 + 0.5);
-    float t0 = floor(d_a_code * 0.125) - floor(d_a_code * 0.015625) * 8.0;
-    return decode_specular_fresnel_falloff(t0);
-}
-
-// dual_specular_roughness_scale as it was stored: bits 1..2 of d.a.
-// Expects d_a in [0, 1]. Returns [1, 14].
-// models/callisto.lobe:204
-float unpack_dual_specular_roughness_scale(float d_a)
-{
-    float d_a_code = floor(d_a * 255.0 + 0.5);
-    float t0 = floor(d_a_code * 0.5) - floor(d_a_code * 0.125) * 4.0;
-    return decode_dual_specular_roughness_scale(t0);
-}
-
-// dual_specular_opacity as it was stored: bit 0 of d.a.
-// Expects d_a in [0, 1]. Returns [0, 1].
+// retroreflection as it was stored: d.a.
+// Expects d_a in [0, 1]. Returns [0, 256].
 // models/callisto.lobe:205
-float unpack_dual_specular_opacity(float d_a)
+float unpack_retroreflection(float d_a)
 {
     float d_a_code = floor(d_a * 255.0 + 0.5);
-    return d_a_code - floor(d_a_code * 0.5) * 2.0;
+    return decode_retroreflection(d_a_code);
+}
+
+// retroreflection_falloff as it was stored: bits 0..3 of d.g, bits 6..7 of d.b.
+// Expects d_g in [0, 1], d_b in [0, 1]. Returns [0, 1].
+// models/callisto.lobe:203
+float unpack_retroreflection_falloff(float d_g, float d_b)
+{
+    float d_g_code = floor(d_g * 255.0 + 0.5);
+    float d_b_code = floor(d_b * 255.0 + 0.5);
+    float t0 = (d_g_code - floor(d_g_code * 0.0625) * 16.0) * 4.0;
+    return decode_retroreflection_falloff(t0 + floor(d_b_code * 0.015625));
+}
+
+// smooth_terminator as it was stored: bits 0..5 of d.b.
+// Expects d_b in [0, 1]. Returns [-1, 1].
+// models/callisto.lobe:204
+float unpack_smooth_terminator(float d_b)
+{
+    float d_b_code = floor(d_b * 255.0 + 0.5);
+    return decode_smooth_terminator(d_b_code - floor(d_b_code * 0.015625) * 64.0);
 }
 
 #endif  // LOBE_CALLISTO_PACKING_GLSL
