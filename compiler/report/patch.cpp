@@ -37,8 +37,14 @@ std::string counted(std::size_t number, std::string_view singular)
 std::string id_text(const engine::Plan& plan)
 {
     for (const auto& [name, value] : plan.read)
-        if (name == "id") return fmt::format(" as shading model {}", value);
+        if (name == "next_id") return fmt::format(" as shading model {}", value);
     return {};
+}
+
+/// True when what to do is a change of the edit list.
+bool names_list(const engine::Obstacle& obstacle)
+{
+    return obstacle.help.find(" the list") != std::string::npos;
 }
 
 }  // namespace
@@ -94,17 +100,20 @@ std::string patch_obstacles(const PatchReport& report, const Look& look)
         if (!obstacle.help.empty()) text += fmt::format("  = help: {}\n", obstacle.help);
         text += '\n';
     }
-    if (!obstacles.empty())
-        text += fmt::format("{}; nothing was written\n", counted(obstacles.size(), "obstacle"));
-    return text;
+    if (obstacles.empty()) return text;
+    if (std::ranges::any_of(obstacles, names_list))
+        text += "the list of edits is templates/ue4/engine.edits\n";
+    return text + fmt::format("{}; nothing was written\n", counted(obstacles.size(), "obstacle"));
 }
 
 std::string patch_shaders(const PatchReport& report, const Look& look)
 {
     std::string text;
+    bool any_broken = false;
     for (const Verdict& verdict : report.shaders) {
         if (verdict.result == Verdict::Result::compiles) continue;
         const bool broken = verdict.result == Verdict::Result::broken;
+        any_broken |= broken;
         text += fmt::format(
             "{}: {}\n",
             styled(broken ? "error" : "warning", broken ? Style::bad : Style::faint, look.color),
@@ -116,8 +125,9 @@ std::string patch_shaders(const PatchReport& report, const Look& look)
                                  "with them either",
                                  verdict.shader));
         text += fmt::format("  = glslang: {}\n", verdict.message);
+        if (broken) text += "  = help: --skip-shaders makes the patch all the same\n";
     }
-    return text;
+    return any_broken ? text + "\nnothing was written\n" : text;
 }
 
 std::string patch_json(const PatchReport& report)

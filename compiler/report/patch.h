@@ -28,7 +28,8 @@ std::string patch_summary(const PatchReport& report, const Look& look);
 /// Every obstacle: file and line, what was seen, the anchor, what to do. Ends with their number.
 std::string patch_obstacles(const PatchReport& report, const Look& look);
 
-/// The shaders that do not compile, or of which nothing is known, with the compiler's words.
+/// The shaders that do not compile, or of which nothing is known, with the compiler's words. Says
+/// that nothing was written if one is broken.
 std::string patch_shaders(const PatchReport& report, const Look& look);
 
 std::string patch_json(const PatchReport& report);
