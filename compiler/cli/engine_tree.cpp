@@ -137,6 +137,8 @@ std::string stage(const fs::path& place, const std::string& text)
     std::error_code error;
     const fs::file_status now = fs::status(place, error);
     const bool is_new = now.type() == fs::file_type::not_found;
+    if (!is_new && now.type() != fs::file_type::regular)
+        return fmt::format("{} stands where a file has to be", place.generic_string());
     if (is_new) {
         fs::create_directories(place.parent_path(), error);
         if (error)

@@ -186,7 +186,7 @@ struct Patch {
         const auto& changes = result.plan.changes;
         if (apply || revert) {
             if (std::string why = apply_changes(tree, changes); !why.empty())
-                return fail(terminal, why + "; the tree is as it was");
+                return fail(terminal, is_interrupted(tree) ? why : why + "; the tree is as it was");
             result.applied = true;
         } else if (!check) {
             const std::string diff = engine::unified_diff(changes);
