@@ -10,6 +10,7 @@
 #include "engine/diff.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -29,7 +30,43 @@ struct Wanted {
     engine::Request request;
     std::string node;              ///< the custom output's function; empty without one
     std::vector<int> node_inputs;  ///< components of each of its inputs
+    /// Of the engine, that the packing supports; empty if the gbuffer does not tell them apart.
+    std::vector<std::string> versions;
 };
+
+/// `v4_27` of a gbuffer's setting `version` is 4.27.
+std::vector<std::string> supported_versions(const ir::Gbuffer& gbuffer, const ir::Packing& packing)
+{
+    std::vector<std::string> versions;
+    const auto setting = std::ranges::find(gbuffer.settings, "version", &ir::Setting::name);
+    if (setting == gbuffer.settings.end()) return versions;
+    const auto which = static_cast<std::size_t>(setting - gbuffer.settings.begin());
+    for (std::size_t value = 0; value < setting->values.size(); ++value) {
+        bool supported = false;
+        for (std::size_t i = 0; i < packing.supported.size(); ++i)
+            supported |= packing.supported[i] && gbuffer.values(i)[which] == value;
+        if (!supported) continue;
+        std::string name = setting->values[value];
+        if (name.starts_with('v')) name.erase(0, 1);
+        std::ranges::replace(name, '_', '.');
+        versions.push_back(std::move(name));
+    }
+    return versions;
+}
+
+void check_version(const std::vector<std::string>& supported, engine::Plan& plan)
+{
+    if (supported.empty() || plan.version.empty()) return;
+    if (std::ranges::find(supported, plan.version) != supported.end()) return;
+    plan.changes.clear();
+    plan.obstacles.push_back({{},
+                              0,
+                              {},
+                              {},
+                              fmt::format("this is engine {}, and the packing supports {}",
+                                          plan.version, fmt::join(supported, ", ")),
+                              "widen `supports version` in the packing; it is checked again then"});
+}
 
 std::string file_name(const std::string& path)
 {
@@ -133,6 +170,8 @@ struct Patch {
         wanted.request = {values->model, values->values, values->words, {}};
         for (emit::Artifact& artifact : back(module, program.sources, {emit::find_target("ue4")}))
             wanted.request.files.emplace_back(file_name(artifact.path), std::move(artifact.text));
+        if (const ir::Gbuffer* gbuffer = module.find_gbuffer(block.gbuffer))
+            wanted.versions = supported_versions(*gbuffer, module.packings[*packing]);
         if (!block.node) return wanted;
         wanted.node = block.node->name;
         for (const std::uint32_t parameter : block.node->parameters)
@@ -148,6 +187,7 @@ struct Patch {
         result.reverts = revert;
         result.plan = revert ? engine::plan_revert(files, list, wanted.request)
                              : engine::plan_patch(files, list, wanted.request);
+        if (!revert) check_version(wanted.versions, result.plan);
         if (!revert && !skip_shaders && result.plan.obstacles.empty())
             result.shaders = check_shaders(files, list, wanted, result.plan.changes);
 

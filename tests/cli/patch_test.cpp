@@ -406,7 +406,10 @@ TEST_CASE("what a packing asks of an engine that cannot do it is refused", "[pat
                  "node \"SkinParameters\" { falloff, shine }",
                  "pin anisotropy = shine \"Shine\"\n  node \"SkinParameters\" { falloff }");
     const Place old{lobe::engine::engine_tree("4.25"), source};
-    CHECK_THAT(meets_obstacle(old), Contains("4.25 writes GBufferF in the base pass"));
+    CHECK_THAT(meets_obstacle(old),
+               Contains("4.25 writes GBufferF in the base pass") &&
+                   Contains("error: this is engine 4.25, and the packing supports 4.26, 4.27\n"
+                            "  = help: widen `supports version` in the packing"));
     const Place place{lobe::engine::engine_tree("4.26"), source};
     const Outcome outcome = place.patch("--apply", true);
     CAPTURE(outcome.err);
