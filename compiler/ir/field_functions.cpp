@@ -113,7 +113,7 @@ public:
         }
         if (parameter_.type == Type::boolean)
             return write.graph.apply(Op::less, {write.number(0.5), value}, write.span);
-        return parameter_.quantity == Quantity::integer ? write.rounded(value) : value;
+        return parameter_.quantity == Quantity::integer ? whole(write, value) : value;
     }
 
 private:
@@ -147,6 +147,15 @@ private:
         }
         return write.graph.apply(Op::guarded_power, {x, write.number(1.0 / code_.exponent)},
                                  write.span);
+    }
+
+    /// The nearest whole number that is in the range.
+    ExprId whole(Writer& write, ExprId x) const
+    {
+        x = write.rounded(x);
+        if (high_ != std::floor(high_)) x = write.at_most(x, std::floor(high_));
+        if (low_ != std::ceil(low_)) x = write.at_least(x, std::ceil(low_));
+        return x;
     }
 
     /// A value, and which of the kept values its arithmetic meets by itself.
@@ -184,13 +193,13 @@ private:
         return stepped(write, anchor, step, write.add(code, -anchor.code), distance, top);
     }
 
+    /// From the low end: its codes are the closest ones, and next to a greater anchor they would be
+    /// lost in the rounding of the sum.
     Decoded squared(Writer& write, ExprId code) const
     {
-        const Anchor anchor = start();
-        const double c0 = anchor.code;
-        const auto distance = [c0](double c) { return (c - c0) * (c + c0); };
-        const ExprId between = write.multiply(write.add(code, -c0), write.add(code, c0));
-        return stepped(write, anchor, size_ / (last_ * last_), between, distance, last_);
+        const auto distance = [](double c) { return c * c; };
+        return stepped(write, {0, low_}, size_ / (last_ * last_), write.multiply(code, code),
+                       distance, last_);
     }
 
     /// anchor + distance * step, cut off at the ends. `top` is the code of the high end.
@@ -226,7 +235,9 @@ private:
         }
         result.value = write.from(anchor.value, write.times(distance, by.value));
         if (anchor.code != 0 && !meets(0, low_)) result.value = write.at_least(result.value, low_);
-        if (top < last_ || (anchor.code != last_ && !meets(top, high_)))
+        // A signed field has a code past the last one, which nothing is stored as.
+        const double greatest = (1 << field_.bits) - 1;
+        if (top < greatest || (anchor.code != last_ && !meets(top, high_)))
             result.value = write.at_most(result.value, high_);
         return result;
     }
@@ -252,8 +263,8 @@ private:
         if (reached + margin > high_) value = write.at_most(value, high_);
         Decoded result{value, {}};
         const bool sum_is_exact =
-            as_read(low_) + as_read(code_.unit) == as_read(low_ + code_.unit) &&
-            as_read(code_.unit) == code_.unit;
+            low_ == 0 || (as_read(low_) + as_read(code_.unit) == as_read(low_ + code_.unit) &&
+                          as_read(code_.unit) == code_.unit);
         for (const Anchor& kept : kept_) {
             const double there = low_ + code_.unit * std::pow(kept.code / p, code_.exponent);
             if ((kept.code == code_.pivot && sum_is_exact) || kept.code == 0 ||
@@ -356,13 +367,14 @@ std::string encode_formula(const Field& field)
                    ? fmt::format("round({} / log2({}))", scaled(last, log), number_text(1 + size))
                    : fmt::format("round({})", scaled(pivot, log));
     }
-    case Code::Kind::halving:
-        return fmt::format(
-            "round({})",
-            over(scaled(pivot,
-                        fmt::format("log2({})", over(fmt::format("({} - x)", number_text(code.top)),
-                                                     code.top - low))),
-                 std::log2((code.top - code.at_pivot) / (code.top - low))));
+    case Code::Kind::halving: {
+        const double whole = code.top - low;
+        const std::string missing = fmt::format("{} - x", number_text(code.top));
+        return fmt::format("round({} * log2({}))",
+                           number_text(pivot / std::log2((code.top - code.at_pivot) / whole)),
+                           whole == 1 ? missing
+                                      : fmt::format("({}) / {}", missing, number_text(whole)));
+    }
     case Code::Kind::declared: return fmt::format("round({} * {}_encode(x))", last, code.name);
     }
     return {};

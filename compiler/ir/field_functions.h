@@ -68,8 +68,8 @@ public:
 ExprId encode(Writer& write, const Module& module, const Packing& packing, const Field& field,
               ExprId x);
 
-/// The value of a code, which is a whole number from 0 to the last code. Never outside of the
-/// field's range.
+/// The value of a code, which is a whole number of the field's bits. Never outside of the field's
+/// range.
 ExprId decode(Writer& write, const Module& module, const Packing& packing, const Field& field,
               ExprId code);
 

@@ -40,6 +40,7 @@ std::optional<Code> halving(const Parameter& parameter, int component, const Ran
     code.pivot = pivot;
     code.top = parameter.range.high;
     code.at_pivot = parameter.default_value[static_cast<std::size_t>(component)];
+    if (!std::isfinite(code.top)) return std::nullopt;
     if (range.high >= code.top || code.at_pivot <= range.low || code.at_pivot > range.high)
         return std::nullopt;
     return code;

@@ -77,7 +77,7 @@ std::string describe(const Code& code, int bits);
 double power_unit(const Parameter& parameter, int component, const Range& range);
 
 /// The halving code of a parameter's component over a range; nothing unless the range ends below
-/// the parameter's and the default lies inside.
+/// the parameter's, which is finite, and the default lies inside.
 std::optional<Code> halving(const Parameter& parameter, int component, const Range& range,
                             int pivot);
 
@@ -171,10 +171,10 @@ int channel_bits(const Packing& packing, const Channel& channel);
 /// a packing builds its candidates with.
 ///
 /// What is exact: every one of the `kept_values` that lies on a code decodes to the float nearest
-/// to it without any rounding, on every device that follows Vulkan's precision table. Decode is
-/// anchored at one of them, `anchor + (code - anchor_code) * step`; where that does not make
-/// another one exact, its code is looked at by itself. Nothing decodes to a value outside of the
-/// field's range.
+/// to it without any rounding, on every device that follows Vulkan's precision table. Linear codes
+/// are decoded from one of them on, `anchor + (code - anchor_code) * step`, powers from their pivot
+/// on; where the arithmetic of a code does not make a kept value exact, its code is looked at by
+/// itself. Nothing that the bits can hold decodes to a value outside of the field's range.
 void build_functions(Module& module, Packing& packing, const Gbuffer& gbuffer);
 
 /// `engine ue4 for callisto { … }`

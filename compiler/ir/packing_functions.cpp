@@ -156,10 +156,11 @@ private:
         Function function = start("decode_" + name, field.span,
                                   fmt::format("{}: {}, {}.", where, name, codes_text(field)));
         function.formula = decode_formula(field);
+        // What the bits can hold: the code past the last one of a signed field as well.
         function.inputs = {{"code",
                             Type::scalar,
                             Quantity::integer,
-                            {0, static_cast<double>(field.last_code())},
+                            {0, static_cast<double>((1 << field.bits) - 1)},
                             Origin::argument,
                             0,
                             field.span}};

@@ -1,4 +1,5 @@
 // What is stored comes back: every code, under every rounding, in every layout.
+#include "ir/field_functions.h"
 #include "ir/packings.h"
 
 #include <catch2/catch.hpp>
@@ -80,8 +81,8 @@ void check_round_trip(const Stored& stored)
     const auto codes_of_floats = stored.encoded(floats);
     const auto codes_accepted = stored.encoded(accepted);
     const ir::Range range = stored.field().range;
-    for (int i = 0; i <= stored.field().last_code(); ++i) {
-        const auto at = static_cast<std::size_t>(i);
+    for (std::size_t at = 0; at < reals.size(); ++at) {
+        const int i = static_cast<int>(at);
         CAPTURE(i, reals[at], floats[at], text(accepted[at]), text(codes_accepted[at]));
         // Never outside, for what comes next was proved over the range.
         REQUIRE((reals[at] >= range.low && reals[at] <= range.high));
@@ -109,7 +110,10 @@ TEST_CASE("every code of every width comes back under any rounding")
             CAPTURE(range.low, range.high);
             const ir::Parameter parameter = scalar("p", range, range.low);
             check_round_trip({parameter, field(0, bits, range)});
-            check_round_trip({parameter, field(0, bits, range, code(Code::Kind::square_root))});
+            // From the closest codes on, wherever the default is.
+            for (const double value : {range.low, (range.low + range.high) / 2, range.high})
+                check_round_trip({scalar("p", range, value),
+                                  field(0, bits, range, code(Code::Kind::square_root))});
             check_round_trip({parameter, field(0, bits, range, code(Code::Kind::log2))});
             check_round_trip(
                 {parameter, field(0, bits, range, code(Code::Kind::linear, last - last / 8))});
@@ -169,10 +173,47 @@ TEST_CASE("halving codes come back, and the default is exact")
     CHECK_FALSE(ir::halving(parameter, 0, {0.75, 0.9}, 1).has_value());
 }
 
+TEST_CASE("the finest roots come back, whatever the default")
+{
+    const ir::Range unit{0, 1};
+    for (const double value : {0.0, 0.5, 1.0})
+        check_round_trip(
+            {scalar("p", unit, value), field(0, 16, unit, code(Code::Kind::square_root))});
+}
+
+TEST_CASE("formulas for people say where the pivot is")
+{
+    const auto formulas = [](const ir::Range& range, double value, const ir::Range& carried,
+                             int exponent) {
+        const ir::Parameter parameter = scalar("p", range, value);
+        ir::Field one = field(0, 4, carried);
+        if (exponent == 0) {
+            one.code = *ir::halving(parameter, 0, carried, 6);
+        } else {
+            one.code = power(exponent, 6);
+            one.code.unit = ir::power_unit(parameter, 0, carried);
+        }
+        return std::pair{ir::encode_formula(one), ir::decode_formula(one)};
+    };
+    using Both = std::pair<std::string, std::string>;
+    CHECK(formulas({0, 4}, 0, {0, 4}, 2) == Both{"round(6 * x^(1/2))", "(code / 6)^2"});
+    CHECK(formulas({0, 4}, 2, {0, 4}, 2) == Both{"round(6 * (x / 2)^(1/2))", "2 * (code / 6)^2"});
+    CHECK(formulas({1, 4}, 2, {1, 4}, 3) == Both{"round(6 * (x - 1)^(1/3))", "1 + (code / 6)^3"});
+    CHECK(formulas({-1, 4}, 1, {-1, 4}, 3) ==
+          Both{"round(6 * ((x + 1) / 2)^(1/3))", "-1 + 2 * (code / 6)^3"});
+    CHECK(formulas({0, 1}, 0.75, {0, 0.9375}, 0) ==
+          Both{"round(-3 * log2(1 - x))", "1 - 0.25^(code / 6)"});
+    CHECK(formulas({-1, 3}, 1, {-1, 2}, 0) ==
+          Both{"round(-6 * log2((3 - x) / 4))", "3 - 4 * 0.5^(code / 6)"});
+}
+
 TEST_CASE("a signed field has an exact 0 and exact ends")
 {
     for (int bits = 2; bits <= 12; ++bits) {
-        for (const double high : {1.0, 0.3, 5.0}) {
+        // The last three have steps without any rounding, so that no code needs to be cut off but
+        // the one that nothing is stored as.
+        const double middle = (1 << (bits - 1)) - 1;
+        for (const double high : {1.0, 0.3, 5.0, middle, middle / 64, middle * 3}) {
             CAPTURE(bits, high);
             ir::Field signed_field = field(0, bits, {-high, high});
             signed_field.is_signed = true;
@@ -182,7 +223,64 @@ TEST_CASE("a signed field has an exact 0 and exact ends")
             CHECK(stored.decoded(stored.field().last_code() / 2) == Acceptance{0, 0, false});
             CHECK(stored.decoded(0) == Acceptance{-end, -end, false});
             CHECK(stored.decoded(stored.field().last_code()) == Acceptance{end, end, false});
+            CHECK(stored.decoded(stored.field().last_code() + 1) == Acceptance{end, end, false});
         }
+    }
+}
+
+namespace {
+
+/// u = (x / 256)^(1/2), and a decode that goes past both ends.
+Code quadratic(ir::Module& module)
+{
+    const auto add = [&module](const std::string& name, const auto& result_of) {
+        ir::Function function;
+        function.name = name;
+        function.module = module.name;
+        function.kind = ir::Function::Kind::storage;
+        function.quantity = ir::Quantity::number;
+        function.inputs = {
+            {"x", ir::Type::scalar, ir::Quantity::number, {0, 256}, ir::Origin::argument, 0, {}}};
+        ir::Writer write;
+        function.result = result_of(write, write.graph.input(0, ir::Type::scalar, {}));
+        function.graph = std::move(write.graph);
+        module.functions.push_back(std::move(function));
+        return ir::FunctionId{module.functions.size() - 1};
+    };
+    Code result;
+    result.kind = Code::Kind::declared;
+    result.name = "quadratic";
+    result.encode = add("quadratic_encode", [](ir::Writer& write, ir::ExprId x) {
+        return write.apply(ir::Op::square_root, write.times(x, 1.0 / 256));
+    });
+    result.decode = add("quadratic_decode", [](ir::Writer& write, ir::ExprId u) {
+        return write.add(write.times(write.multiply(u, u), 258), -1);
+    });
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("no code decodes to a value outside of the range, whatever a declaration says")
+{
+    for (int bits = 1; bits <= 10; ++bits) {
+        const ir::Range range{0, 256};
+        ir::Module module;
+        module.name = "m";
+        module.parameters = {scalar("p", range, 0)};
+        const Code declared = quadratic(module);
+        ir::Packing packing = laid_out(module, {field(0, bits, range, declared)});
+        packing.fields[0].anchors = {{0, 0}};
+        ir::build_functions(module, packing, plain_gbuffer(2));
+        REQUIRE(!ir::verify(module));
+        const auto decoded = values<Acceptance>(module, packing.fields[0].decode,
+                                                {all_codes<Acceptance>(packing.fields[0])});
+        for (const Acceptance& value : decoded) {
+            CAPTURE(bits, text(value));
+            REQUIRE((value.low >= 0 && value.high <= 256 && !value.undefined));
+        }
+        CHECK(decoded.front() == Acceptance{0, 0, false});
+        CHECK(decoded.back() == Acceptance{256, 256, false});
     }
 }
 
@@ -279,6 +377,16 @@ TEST_CASE("whole numbers and conditions are stored as they are")
     CHECK(stored.encoded<float>({-2, -1, 0, 5}) == std::vector<float>{0, 1, 2, 7});
     CHECK(values<float>(stored.module, stored.field().decode, {{0, 1, 2, 7}}) ==
           std::vector<float>{-2, -1, 0, 5});
+
+    // Between ends that are none of them.
+    times.range = {-1.75, 5.5};
+    for (int bits = 3; bits <= 8; ++bits) {
+        const Stored between{times, field(0, bits, times.range)};
+        for (const float x : between.decoded<float>()) {
+            CAPTURE(bits, x);
+            REQUIRE((x == std::floor(x) && x >= -1 && x <= 5));
+        }
+    }
 
     ir::Parameter lit = scalar("lit", {0, 1}, 0);
     lit.type = ir::Type::boolean;

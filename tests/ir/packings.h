@@ -42,12 +42,12 @@ std::vector<Number> values(const ir::Module& module, ir::FunctionId function,
     return results.at(output);
 }
 
-/// 0, 1, … last code.
+/// 0, 1, … all that the bits hold.
 template <class Number>
 std::vector<Number> all_codes(const ir::Field& field)
 {
     std::vector<Number> codes;
-    for (int code = 0; code <= field.last_code(); ++code) {
+    for (int code = 0; code < 1 << field.bits; ++code) {
         if constexpr (std::is_same_v<Number, evaluate::Acceptance>)
             codes.push_back({static_cast<double>(code), static_cast<double>(code), false});
         else

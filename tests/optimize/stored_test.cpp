@@ -25,13 +25,28 @@ TEST_CASE("optimized codes are the codes that were checked, on any device")
     for (const ir::Range range : {ir::Range{0, 1}, ir::Range{0, 256}, ir::Range{-0.3, 2.7}}) {
         for (const double part : {0.0, 0.2, 1.0}) {
             const double value = range.low + part * (range.high - range.low);
-            for (const Code& one :
-                 {Code{}, code(Code::Kind::linear, 250), code(Code::Kind::square_root),
-                  power(1, 127), power(3, 127), power(8, 127), code(Code::Kind::log2),
-                  code(Code::Kind::log2, 31)}) {
+            // Wider than what is carried: there is an end to halve the distance to.
+            const ir::Parameter parameter = scalar("p", {range.low, range.high * 1.125}, value);
+            std::vector<Code> codes_of_all_kinds{Code{},
+                                                 code(Code::Kind::linear, 250),
+                                                 code(Code::Kind::square_root),
+                                                 power(1, 127),
+                                                 power(3, 127),
+                                                 power(8, 127),
+                                                 code(Code::Kind::log2),
+                                                 code(Code::Kind::log2, 31)};
+            // With the default at the pivot.
+            for (const int exponent : {2, 3, 8}) {
+                codes_of_all_kinds.push_back(power(exponent, 100));
+                codes_of_all_kinds.back().unit = ir::power_unit(parameter, 0, range);
+            }
+            if (const auto halved = ir::halving(parameter, 0, range, 31))
+                codes_of_all_kinds.push_back(*halved);
+            CHECK(codes_of_all_kinds.size() == (part == 0 ? 11 : 12));
+            for (const Code& one : codes_of_all_kinds) {
                 ir::Module module;
                 module.name = "m";
-                module.parameters = {scalar("p", range, value)};
+                module.parameters = {parameter};
                 module.packings = {laid_out(module, {field(0, 8, range, one)})};
                 ir::Packing& packing = module.packings[0];
                 packing.exact = {{0, range.low + 1, {}}};

@@ -49,7 +49,7 @@ float decode_diffuse_fresnel(float code)
 }
 
 // The code of diffuse_fresnel_falloff: 64 codes over [0, 0.875], halving(42/63).
-// = round(42 * log2((1 - x)) / -2)
+// = round(-21 * log2(1 - x))
 // Returns [0, 63].
 // models/callisto.lobe:202
 float encode_diffuse_fresnel_falloff(float x)
@@ -68,7 +68,7 @@ float decode_diffuse_fresnel_falloff(float code)
 }
 
 // The code of retroreflection_falloff: 64 codes over [0, 0.875], halving(42/63).
-// = round(42 * log2((1 - x)) / -2)
+// = round(-21 * log2(1 - x))
 // Returns [0, 63].
 // models/callisto.lobe:203
 float encode_retroreflection_falloff(float x)
@@ -87,7 +87,7 @@ float decode_retroreflection_falloff(float code)
 }
 
 // The code of smooth_terminator: 64 codes over [-1, 0.9375], halving(12/63).
-// = round(12 * log2((1 - x) / 2) / -1)
+// = round(-12 * log2((1 - x) / 2))
 // Returns [0, 63].
 // models/callisto.lobe:204
 float encode_smooth_terminator(float x)

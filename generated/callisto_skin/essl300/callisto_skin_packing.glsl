@@ -61,7 +61,7 @@ float decode_diffuse_fresnel(float code)
 }
 
 // The code of diffuse_fresnel_falloff: 32 codes over [0, 0.8125], halving(25/31).
-// = round(25 * log2((1 - x)) / -2)
+// = round(-12.5 * log2(1 - x))
 // Returns [0, 31].
 // models/callisto_skin.lobe:11
 float encode_diffuse_fresnel_falloff(float x)
@@ -98,7 +98,7 @@ float decode_dual_specular_opacity(float code)
 }
 
 // The code of retroreflection_falloff: 64 codes over [0, 0.8125], halving(52/63).
-// = round(52 * log2((1 - x)) / -2)
+// = round(-26 * log2(1 - x))
 // Returns [0, 63].
 // models/callisto_skin.lobe:13
 float encode_retroreflection_falloff(float x)
@@ -116,7 +116,7 @@ float decode_retroreflection_falloff(float code)
 }
 
 // The code of smooth_terminator: 64 codes over [-1, 0.875], halving(15/63).
-// = round(15 * log2((1 - x) / 2) / -1)
+// = round(-15 * log2((1 - x) / 2))
 // Returns [0, 63].
 // models/callisto_skin.lobe:14
 float encode_smooth_terminator(float x)
