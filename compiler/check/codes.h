@@ -32,11 +32,11 @@ LoweredCode lower_code(Program& program, std::size_t index, const Sources& sourc
 bool check_inverse(const Program& program, const CodeDeclaration& code, const Sources& sources,
                    Diagnostics& diagnostics);
 
-/// `linear`, `sqrt`, `power`, `log2`.
+/// `linear`, `sqrt`, `power`, `log2`, `halving`.
 bool is_builtin_code(std::string_view name);
 
-/// The code of a field; linear where the clause names none. `field` has its bits, its sign and its
-/// range, `parameter` is what it stores. Nothing if it makes no sense (reported: E0610, and E0607
+/// The code of a field; linear where the clause names none. `field` has its component, its bits,
+/// its sign and its range, `parameter` is what it stores. Nothing if it makes no sense (reported: E0610, and E0607
 /// where the range is wider than a declared code's).
 std::optional<ir::Code> read_code(Program& program, std::size_t file,
                                   const syntax::FieldClause& clause, const ir::Field& field,

@@ -87,8 +87,9 @@ public:
         }
         // The nearest number below with three digits.
         const double unit = std::pow(10.0, std::floor(std::log10(std::abs(reached))) - 2);
-        const double end = std::floor(reached / unit) * unit;
-        if (end > field_.range.low)
+        double end = std::floor(reached / unit) * unit;
+        if (end < default_value()) end = default_value();
+        if (end > field_.range.low && end <= reached)
             diagnostic.helps.push_back(fmt::format("or let the field carry less: `in {}`",
                                                    range_text(field_.range.low, end)));
         diagnostics_.report(std::move(diagnostic));
@@ -183,7 +184,8 @@ private:
         Diagnostic diagnostic{.code = Code::value_inexact, .message = {}, .primary = {}};
         // What a device may make of the code holds the value, but not alone.
         const auto wanted = static_cast<double>(static_cast<float>(kept.value));
-        const bool vague = read.undefined || (read.low <= wanted && wanted <= read.high);
+        const Acceptance& alone = run_.accepted[code];
+        const bool vague = read.undefined || (alone.low <= wanted && wanted <= alone.high);
         std::string what = fmt::format("{} is stored as code {} and comes back as {}",
                                        number_beside(kept.value, nearest), code,
                                        number_beside(nearest, kept.value));
@@ -242,10 +244,13 @@ private:
         const auto outside = std::ranges::find_if(
             all, [this](double one) { return one < field_.range.low || one > field_.range.high; });
         if (outside != all.end()) {
-            diagnostic.helps.push_back(
-                fmt::format("let the field carry it: `in {}`",
-                            range_text(std::min(*outside, field_.range.low),
-                                       std::max(*outside, field_.range.high))));
+            const ir::Range wider{std::min(*outside, field_.range.low),
+                                  std::max(*outside, field_.range.high)};
+            const bool halving = field_.code.kind == ir::Code::Kind::halving;
+            diagnostic.helps.push_back(fmt::format(
+                "let the field carry it{}: `in {}`",
+                halving && wider.high >= field_.code.top ? ", with a code that reaches it" : "",
+                range_text(wider.low, wider.high)));
             return;
         }
         std::string values;

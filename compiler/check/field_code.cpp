@@ -150,18 +150,43 @@ private:
     std::optional<ir::Code> halving(int pivot)
     {
         if (auto code = ir::halving(parameter_, field_.component, field_.range, pivot)) return code;
-        return refuse(
-            fmt::format("`halving` never reaches the top of `{}`, and the default is inside",
-                        parameter_.name),
-            {clause_.code->span,
-             fmt::format(
-                 "the field carries {}, the parameter has {}, and its "
-                 "default is {}",
-                 describe(field_.range), describe(parameter_.range),
-                 describe(parameter_.default_value[static_cast<std::size_t>(field_.component)]))},
-            {"equal steps halve what is missing to the parameter's own high end"},
-            {"let the field carry less than the parameter: `in [low, high]` with a lower high "
-             "end"});
+        const ir::Range& carried = field_.range;
+        const double top = parameter_.range.high;
+        const double value = parameter_.default_value[static_cast<std::size_t>(field_.component)];
+        const Span& span = clause_.code->span;
+        if (!std::isfinite(top))
+            return refuse(fmt::format("`{}` has no high end that `halving` could go towards",
+                                      parameter_.name),
+                          {span, fmt::format("it is in {}", describe(parameter_.range))}, {},
+                          {"give the parameter a range, or take another code"});
+        if (carried.high >= top)
+            return refuse(
+                fmt::format("`halving` never reaches the high end of `{}`", parameter_.name),
+                {span, fmt::format("the field carries {}", describe(carried))},
+                {fmt::format("equal steps halve what is missing to {}", describe(top))},
+                {value < top ? fmt::format("let the field carry less: `in {}`",
+                                           describe(ir::Range{carried.low, below_top(value)}))
+                             : "take another code: the default is that end"});
+        return refuse(fmt::format("the pivot of `halving` is the code of the default, and the "
+                                  "default of `{}` {}",
+                                  parameter_.name,
+                                  value == carried.low ? "is the low end" : "is not carried"),
+                      {span, fmt::format("the field carries {}, and the default is {}",
+                                         describe(carried), describe(value))},
+                      {},
+                      {value > carried.high && value < top
+                           ? fmt::format("let the field carry it: `in {}`",
+                                         describe(ir::Range{carried.low, value}))
+                           : "take another code"});
+    }
+
+    /// An end that leaves out a small part of the range, but not the default.
+    double below_top(double value) const
+    {
+        const double top = parameter_.range.high;
+        double end = top - (top - field_.range.low) / 16;
+        for (int i = 0; i < 32 && end < value; ++i) end = (end + top) / 2;
+        return std::max(end, value);
     }
 
     /// `127/255`: a code over the last code; `1` is the last one.

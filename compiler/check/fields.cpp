@@ -48,10 +48,13 @@ public:
 
         std::vector<PlacedField> result = place(field, *components, *slots);
         if (result.empty()) return {};
-        const auto code =
-            read_code(program_, subject_.file, clause_, field, *parameter_, diagnostics_);
-        if (!code) return {};
-        for (PlacedField& placed : result) placed.field.code = *code;
+        // Each for itself: a pivot is where the component has its own default.
+        for (PlacedField& placed : result) {
+            const auto code = read_code(program_, subject_.file, clause_, placed.field, *parameter_,
+                                        diagnostics_);
+            if (!code) return {};
+            placed.field.code = *code;
+        }
         return result;
     }
 

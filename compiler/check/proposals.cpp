@@ -57,12 +57,27 @@ std::optional<ir::Code> logarithm(ir::Field field, const std::vector<double>& va
     return pivot ? with_pivot(field, *pivot, 0.75, values) : std::nullopt;
 }
 
+std::optional<ir::Code> halving(ir::Field field, const ir::Parameter& parameter,
+                                const std::vector<double>& values)
+{
+    const auto code = ir::halving(parameter, field.component, field.range, 1);
+    if (!code) return std::nullopt;
+    field.code = *code;
+    const auto pivot = reaching_pivot(field);
+    return pivot ? with_pivot(field, *pivot, 0.75, values) : std::nullopt;
+}
+
 std::optional<ir::Code> any_power(const ir::Field& field, double unit,
                                   const std::vector<double>& values)
 {
     if (field.code.kind == Kind::power)
         if (auto code = power(field, unit, field.code.exponent, values)) return code;
-    for (const int exponent : {8, 4, 2, 16, 3, 6})
+    // One whose steps grow about as those of a logarithm do: 8 for a range of 256 units.
+    std::array<int, 6> exponents{8, 4, 2, 16, 3, 6};
+    const double doublings = std::log2(std::max(1.0, (field.range.high - field.range.low) / unit));
+    std::ranges::stable_sort(exponents, {},
+                             [doublings](int exponent) { return std::abs(exponent - doublings); });
+    for (const int exponent : exponents)
         if (auto code = power(field, unit, exponent, values)) return code;
     return std::nullopt;
 }
@@ -87,9 +102,13 @@ std::optional<ir::Code> code_for(const ir::Field& field, const ir::Parameter& pa
     const double unit = ir::power_unit(parameter, field.component, field.range);
     if (field.is_signed) return std::nullopt;
     if (!has_powers) return linear(field, 0.5, values);
-    const bool curved = field.code.kind == Kind::power || field.code.kind == Kind::log2;
+    // A logarithm over less than two units is nearly straight.
+    const bool wide = field.range.high - field.range.low > 2 * unit;
+    const bool curved = field.code.kind == Kind::power || (field.code.kind == Kind::log2 && wide);
     if (field.code.kind == Kind::log2)
         if (auto code = logarithm(field, values)) return code;
+    if (field.code.kind == Kind::halving)
+        if (auto code = halving(field, parameter, values)) return code;
     if (curved)
         if (auto code = any_power(field, unit, values)) return code;
     // A quarter of the codes is worth an easy decode; more is not.

@@ -151,10 +151,86 @@ TEST_CASE("a field's code is read as it is written")
     CHECK(described(gain, " = p : unorm 8 code power(4 * 2, 127/255)") == "power(8, 127/255)");
     CHECK(described("float in [0, 256] = 0", " = p : unorm 8 code log2") == "log2");
     CHECK(described(gain, " = p : unorm 8 code log2(31/255)") == "log2(31/255)");
+    CHECK(described("unit = 0.75", " = p : unorm 8 in [0, 0.9] code halving(120/255)") ==
+          "halving(120/255)");
     // What is whole is stored as it is.
     CHECK(described("int in [0, 3] = 1", "[0..3] = p : unorm 4") == "linear(3/15)");
     CHECK(described("bool = true", "[0..1] = p : unorm 2") == "linear(1/3)");
     CHECK(described("bool = true", "[0] = p : unorm 1") == "linear");
+}
+
+TEST_CASE("powers and halvings have the default at their pivot")
+{
+    const Field low{"float in [0, 4] = 0", " = p : unorm 8 code power(2, 127/255)"};
+    CHECK(low.code().unit == 1);
+    const Field inside{"float in [0, 4] = 1.5", " = p : unorm 8 code power(2, 127/255)"};
+    CHECK(inside.code().unit == 1.5);
+    const Field above{"float in [0.5, 4] = 1.5", " = p : unorm 8 code power(2, 96/255)"};
+    CHECK(above.code().unit == 1);
+    const Field halved{"float in [-1, 1] = 0",
+                       " = p : unorm 8 in [-1, 0.875] code halving(63/255)"};
+    CHECK(halved.code().top == 1);
+    CHECK(halved.code().at_pivot == 0);
+}
+
+TEST_CASE("each component of a color has its own pivot")
+{
+    const auto check = [](const std::string& fields) {
+        return check_layout("/// p\nparam p : color = (0.25, 0.5, 0.75)\n"
+                            "/// m\nmodel lit(g: geometry) { out = g.cos_i * p }\n"
+                            "packing lit on console {\n" +
+                            fields + "  supports lighting == live\n}\n");
+    };
+    const auto units = [](const Checked& checked) {
+        CHECK(checked.errors().empty());
+        REQUIRE(checked.module);
+        std::vector<double> found;
+        for (const ir::Field& field : checked.module->packings.at(0).fields)
+            found.push_back(field.code.kind == ir::Code::Kind::halving ? field.code.at_pivot
+                                                                       : field.code.unit);
+        return found;
+    };
+    CHECK(units(check("  d.rgb = p : unorm 8 code power(3, 120/255)\n")) ==
+          std::vector<double>{0.25, 0.5, 0.75});
+    CHECK(units(check("  d.r = p.b : unorm 8 code power(3, 120/255)\n"
+                      "  d.g = p.g : unorm 8 in [0, 0.875] code halving(80/255)\n"
+                      "  d.b = p.r : unorm 8 code power(3, 120/255)\n")) ==
+          std::vector<double>{0.75, 0.5, 0.25});
+    // One of them is not carried.
+    CHECK(check("  d.rgb = p : unorm 8 in [0, 0.7] code halving(30/255)\n").errors() == "E0610");
+}
+
+TEST_CASE("a halving needs an end that it does not reach, and a default on the way")
+{
+    const auto said = [](const std::string& parameter, const std::string& storage) {
+        return only_error(Field{parameter, storage}.checked);
+    };
+    const auto contains = [](const std::string& text, std::string_view part) {
+        CAPTURE(text);
+        CHECK(text.find(part) != std::string::npos);
+    };
+    contains(said("unit = 0.75", " = p : unorm 8 code halving(120/255)"),
+             "let the field carry less: `in [0, 0.9375]`");
+    contains(said("unit = 0.96", " = p : unorm 8 code halving(120/255)"),
+             "let the field carry less: `in [0, 0.96875]`");
+    contains(said("unit = 1", " = p : unorm 8 code halving(120/255)"),
+             "take another code: the default is that end");
+    contains(said("unit = 0", " = p : unorm 8 in [0, 0.9] code halving(120/255)"),
+             "the default of `p` is the low end");
+    contains(said("unit = 0.95", " = p : unorm 8 in [0, 0.9] code halving(120/255)"),
+             "let the field carry it: `in [0, 0.95]`");
+    contains(said("float = 1", " = p : unorm 8 in [0, 2] code halving(120/255)"),
+             "`p` has no high end that `halving` could go towards");
+    contains(said("unit = 0.75", " = p : unorm 8 in [0, 0.9] code halving"),
+             "it is written `halving(120/255)`");
+    contains(said("float in [-1, 1] = 0", " = p : snorm 8 code halving(63/255)"),
+             "a snorm field has linear codes");
+    contains(said("int in [0, 7] = 1", " = p : unorm 8 in [0, 6] code halving(63/255)"),
+             "its codes are linear");
+    // What is proposed can be had.
+    for (const char* storage : {" = p : unorm 8 in [0, 0.9375] code halving(60/255)",
+                                " = p : unorm 8 in [0, 0.96875] code halving(60/255)"})
+        CHECK(Field{"unit = 0.75", storage}.errors.empty());
 }
 
 TEST_CASE("a code that its field cannot have is refused")

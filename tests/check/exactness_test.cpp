@@ -107,6 +107,19 @@ TEST_CASE("what is proposed is accepted")
     CHECK(proposals > 100);
 }
 
+TEST_CASE("a power is proposed that bends as much as the range is wide")
+{
+    const auto bent = [](const std::string& range, const std::string& value) {
+        return proposed(check_packed("/// p\nparam p : float in " + range + " = " + value + "\n",
+                                     "p", "  d.r[0..3] = p : unorm 4"));
+    };
+    CHECK(bent("[0, 1]", "0.3") == "power(2, 8/15)");
+    CHECK(bent("[0, 16.5]", "1") == "power(4, 7/15)");
+    CHECK(bent("[0, 256]", "1") == "power(8, 7/15)");
+    // Nearly straight: 1 + x is between 1 and 2.
+    CHECK(proposed(check_gain("[0, 1]", "0.75", "unorm 8 code log2")) == "linear(252/255)");
+}
+
 TEST_CASE("every required value has to be on a code of its own")
 {
     const std::string power = "unorm 8 code power(8, 127/255)";
@@ -164,6 +177,57 @@ TEST_CASE("codes that end before the range do not clamp in silence")
         check_gain("[0, 256]", "1", "unorm 8 in [0, 248] code power(8, 128/255)").errors().empty());
     CHECK(check_gain("[0, 8]", "1", "unorm 8 code log2(85/255)").errors() == "E0607");
     CHECK(check_gain("[0, 7]", "1", "unorm 8 code log2(85/255)").errors().empty());
+}
+
+TEST_CASE("a halving keeps its default, and what else lies on a code")
+{
+    const auto check = [](const std::string& pivot, const std::string& more = "") {
+        return check_gain("[0, 1]", "0.75",
+                          "unorm 8 in [0, 0.9375] code halving(" + pivot + "/255)", more);
+    };
+    // Four halvings to the end, two to the default.
+    CHECK(check("127").errors().empty());
+    CHECK(check("126", "require exact p == 0, p == 0.5, p == 0.875, p == 0.9375").errors().empty());
+    const Checked beside = check("127", "require exact p == 0.5");
+    CHECK(contains(only_error(beside), "E0606 `p == 0.5` is required to be exact"));
+    CHECK(proposed(beside) == "halving(126/255)");
+    // The end of the parameter is for other codes.
+    CHECK(contains(only_error(check("127", "require exact p == 1")),
+                   "let the field carry it, with a code that reaches it: `in [0, 1]`"));
+
+    const Checked early = check("200");
+    const std::string said = only_error(early);
+    CHECK(contains(said, "E0607 the codes of `p` end before its range"));
+    CHECK(contains(said, "`halving(200/255)` reaches 0.829"));
+    CHECK(contains(said, "`halving(127/255)` reaches the end"));
+    CHECK(contains(said, "in [0, 0.829]"));
+    CHECK(check_gain("[0, 1]", "0.75", "unorm 8 in [0, 0.829] code halving(200/255)")
+              .errors()
+              .empty());
+    // No less than the default.
+    CHECK(contains(
+        only_error(check_gain("[0, 1]", "0.7512", "unorm 8 in [0, 0.9375] code halving(255/255)")),
+        "in [0, 0.7512]"));
+}
+
+TEST_CASE("roots come back wherever the default is, unless the low end is too far up")
+{
+    for (const char* value : {"0", "1"}) {
+        const auto check = [&](const std::string& field) {
+            return check_packed(std::string{"/// p\nparam p : unit = "} + value + "\n", "p", field)
+                .errors();
+        };
+        CHECK(check("  d.r, d.g[0..3] = p : unorm 12 code sqrt").empty());
+        CHECK(check("  d.r, d.g = p : unorm 16 code sqrt").empty());
+    }
+    const auto far = [](const std::string& field) {
+        return check_packed("/// p\nparam p : float in [100, 101] = 101\n", "p", field);
+    };
+    CHECK(far("  d.r = p : unorm 8 code sqrt").errors().empty());
+    // (1/1023)^2 is less than a float's step next to 100.
+    CHECK(contains(only_error(far("  d.r, d.g[0..1] = p : unorm 10 code sqrt")),
+                   "E0609 the values of the codes of `p` do not rise\ncodes 0 and 1 are both 100"));
+    CHECK(contains(only_error(far("  d.r, d.g[0] = p : unorm 9 code sqrt")), "E0608 code "));
 }
 
 TEST_CASE("codes that float cannot tell apart are refused")
