@@ -144,15 +144,15 @@ TEST_CASE("one result that is off is one point", "[round_trip]")
 
 TEST_CASE("codes that floats cannot tell apart are lost, and are not promised", "[round_trip]")
 {
-    // The square of 1/4095 is as far from 0 as two floats below 1 are from each other, and decode
-    // starts from 1.
+    // The square of 1/4095 is a quarter of the distance between two floats above 2, from where
+    // decode starts.
     tests::Builder b{"fine"};
     ir::Parameter gain;
     gain.name = "gain";
     gain.type = ir::Type::scalar;
     gain.quantity = ir::Quantity::number;
-    gain.range = {0, 1};
-    gain.default_value = {1};
+    gain.range = {2, 3};
+    gain.default_value = {3};
     gain.module = "fine";
     b.module.parameters.push_back(gain);
     ir::Gbuffer gbuffer;
@@ -182,7 +182,7 @@ TEST_CASE("codes that floats cannot tell apart are lost, and are not promised", 
     const analyze::RoundTrip& outcome = reference.outcome;
     CHECK(outcome.codes == 4096);
     CHECK(outcome.processor.lost > 0);
-    CHECK(outcome.processor.lost < 3 * 16);  // only where the square is some units of 2^-24
+    CHECK(outcome.processor.lost < 3 * 16);  // only where the square is some units of 2^-22
     REQUIRE(outcome.processor.example);
     CHECK(outcome.processor.example->stored == "a.r = 1/4095");
     CHECK(outcome.promised + outcome.processor.lost <= outcome.points);

@@ -94,7 +94,7 @@ float encode_terminator(float x)
 
 // Bits 3..7 of d.a: terminator, 31 codes over [-1, 1], linear.
 // = (code - 15) / 15
-// Expects code in [0, 30]. Returns [-1, 1].
+// Expects code in [0, 31]. Returns [-1, 1].
 // models/skin.lobe:30
 float decode_terminator(float code)
 {
@@ -116,7 +116,7 @@ float encode_roughening(float x)
 // models/skin.lobe:30
 float decode_roughening(float code)
 {
-    return max(1.0 + (code - 15.0) * (code + 15.0) * 0.0044444446, 0.0);
+    return min(code * code * 0.0044444446, 1.0);
 }
 
 // The code of sheen: 256 codes over [0, 4], log2(100/255).
