@@ -60,13 +60,17 @@ std::vector<CurvePoint> candidates(const Subject& subject, const Placed& placed,
     }
     if (range.low == -range.high && bits >= 2) consider(true, {});
     consider(false, code_like(Kind::square_root, "sqrt"));
-    const double unit =
-        ir::power_unit(subject.bare.parameters[placed.parameter], 0, placed.range);
-    for (int exponent = 2; exponent <= most_exponent; ++exponent) {
+    const ir::Parameter& parameter = subject.bare.parameters[placed.parameter];
+    const double unit = ir::power_unit(parameter, 0, range);
+    // Components with defaults of their own have pivots that mean something else for each.
+    const bool alike = std::ranges::all_of(parameter.default_value, [&](double value) {
+        return value == parameter.default_value.front();
+    });
+    for (int exponent = 2; alike && exponent <= most_exponent; ++exponent) {
         // The largest pivot that lets the last code reach the high end. In doubles: where rounding
         // decides, the next smaller one is as good.
-        const int pivot = static_cast<int>(
-            std::floor(last / std::pow(std::max(size / unit, 1.0), 1.0 / exponent) * (1 + 0x1p-40)));
+        const int pivot = static_cast<int>(std::floor(
+            last / std::pow(std::max(size / unit, 1.0), 1.0 / exponent) * (1 + 0x1p-40)));
         if (pivot < 1 || (size == unit && exponent == 2)) continue;  // which is sqrt
         ir::Code code = code_like(Kind::power, "power");
         code.exponent = exponent;
@@ -81,8 +85,8 @@ std::vector<CurvePoint> candidates(const Subject& subject, const Placed& placed,
         if (code.pivot >= 1) consider(false, code);
     }
     // The largest pivot that reaches the high end.
-    const ir::Parameter& parameter = subject.bare.parameters[placed.parameter];
-    if (const auto one = ir::halving(parameter, 0, range, 1)) {
+    const auto one = alike ? ir::halving(parameter, 0, range, 1) : std::nullopt;
+    if (one) {
         ir::Field field;
         field.bits = bits;
         field.range = range;

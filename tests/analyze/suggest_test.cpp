@@ -442,3 +442,34 @@ TEST_CASE("a declared code is considered in the bits it was written for", "[sugg
     CHECK(made.anchors == field.anchors);
     CHECK(analyze::field_of(placed, 0, {5, false, field.code, 0}).anchors.empty());
 }
+
+TEST_CASE("a pivot is considered where it means the same for all components", "[suggest]")
+{
+    const auto bits_of = [](const std::vector<double>& standard) {
+        Toy toy;
+        ir::Parameter& tint = toy.module.parameters[0];
+        tint.name = "tint";
+        tint.type = ir::Type::vec3;
+        tint.quantity = ir::Quantity::color;
+        tint.range = {0, 1};
+        tint.default_value = standard;
+        tests::FunctionBuilder f{"tinted"};
+        const auto color = f.parameter(toy.module, 0);
+        const auto cosine = f.geometry(ir::GeometryField::cos_i);
+        toy.packing.model.outputs.push_back(
+            {"diffuse", toy.add(f.finish(f(ir::Op::multiply, {color, cosine})))});
+        analyze::Placed placed;
+        placed.parameter = 0;
+        placed.components = 3;
+        placed.range = tint.range;
+        const analyze::Subject subject = analyze::subject_of(toy.module, toy.packing, {placed});
+        return analyze::fit_curves(subject, {0}, {2, 2}, 0)[0];
+    };
+    // Of two bits no linear code keeps a quarter.
+    const auto alike = bits_of({0.25, 0.25, 0.25});
+    REQUIRE(alike.size() == 1);
+    CHECK(alike[0].point.code.kind == ir::Code::Kind::power);
+    CHECK(alike[0].point.code.unit == 0.25);
+    // By the first one's power(2, 1/3), 1 would be code 2, but the second one has it at the pivot.
+    CHECK(bits_of({0.25, 1, 0.25}).empty());
+}
