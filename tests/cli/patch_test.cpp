@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 
 using Catch::Contains;
 using lobe::engine::Files;
@@ -482,6 +483,53 @@ TEST_CASE("a folder in the place of a new file leaves the tree as it was", "[pat
     fs::create_directories(place.path("tree/" + shaders + "Skin.ush"));
     CHECK_THAT(refuses(place, "--apply", 2),
                Contains("Skin.ush stands where a file has to be; the tree is as it was"));
+}
+
+TEST_CASE("one of several engine blocks is chosen by its shading model", "[patch]")
+{
+    std::string other = replaced(block, "\"Skin\"", "\"Nose\"");
+    other = replaced(other, "SkinParameters", "NoseParameters");
+    const Place place{lobe::engine::engine_tree("4.27"), model + block + other};
+    CHECK_THAT(refuses(place, "--apply", 2),
+               Contains("skin.lobe has several shading models, choose one with --model: Skin, "
+                        "Nose"));
+    const Outcome outcome = place.patch("--apply --model Nose", true);
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.err, Contains("Nose as shading model 12 into"));
+
+    // Both are in one file, which the patch of the first has brought.
+    CHECK_THAT(refuses(place, "--apply --model Skin", 1),
+               Contains("error: this file belongs to the patch of another shading model\n  --> " +
+                        shaders + "Skin.ush:1\n  = help: revert that one first"));
+    CHECK(place.patch("--revert --model Nose").status == 0);
+    CHECK(place.patch("--apply --model Skin").status == 0);
+}
+
+TEST_CASE("the guide tells what the patch of the shipped model does", "[patch]")
+{
+    std::ifstream in{ROOT "/docs/unreal.md", std::ios::binary};
+    const std::string guide{std::istreambuf_iterator<char>{in}, {}};
+    for (const auto& file : lobe::engine::shipped_list().files) {
+        const std::string name = fs::path{file.path}.filename().string();
+        const bool is_source = name == "PixelInspectorResult.cpp";  // named by its ending
+        CHECK_THAT(guide, Contains(is_source ? "`PixelInspectorResult.h`, `.cpp`" : name));
+    }
+
+    const Place place;
+    const Outcome outcome =
+        place.shell("lobec patch '" ROOT "/models/callisto.lobe' --engine tree --skip-shaders");
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK_THAT(outcome.err, Contains("18 changed files, 3 new, 0 removed, 29 marked regions"));
+    CHECK_THAT(guide, Contains("changes 18 files of a 4.27 tree in 29 places and adds 3"));
+    const auto begin = guide.find("// BEGIN lobe");
+    const auto end = guide.find("\n```", begin);
+    REQUIRE(begin < end);
+    std::string region = "+" + guide.substr(begin, end - begin) + "\n";
+    for (auto at = region.find('\n'); at + 1 < region.size(); at = region.find('\n', at + 1))
+        region.insert(at + 1, "+");
+    CHECK_THAT(outcome.out, Contains(region));
 }
 
 TEST_CASE("a patch whose shaders do not compile is refused", "[patch]")
