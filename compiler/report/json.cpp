@@ -1,33 +1,29 @@
 // JSON: every number of every row, for other programs.
+#include "report/markup.h"
 #include "report/verification.h"
 
 #include <nlohmann/json.hpp>
-
-#include <cmath>
 
 namespace lobe::report {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// JSON has no word for what is not finite; a string says it.
-ordered_json number(double value)
-{
-    if (std::isnan(value)) return "nan";
-    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-    return value;
-}
-
 ordered_json to_json(const analyze::Witness& at)
 {
-    return {{"point", at.point},         {"component", at.component}, {"result", number(at.result)},
-            {"exact", number(at.exact)}, {"low", number(at.low)},     {"high", number(at.high)},
-            {"kind", at.kind},           {"inputs", at.inputs}};
+    return {{"point", at.point},
+            {"component", at.component},
+            {"result", json_number(at.result)},
+            {"exact", json_number(at.exact)},
+            {"low", json_number(at.low)},
+            {"high", json_number(at.high)},
+            {"kind", at.kind},
+            {"inputs", at.inputs}};
 }
 
 ordered_json to_json(const analyze::WorstError& worst)
 {
-    ordered_json out{{"size", number(worst.size)}};
+    ordered_json out{{"size", json_number(worst.size)}};
     if (worst.at) out["at"] = to_json(*worst.at);
     return out;
 }
@@ -39,7 +35,7 @@ ordered_json to_json(const analyze::Agreement& agreement)
                      {"outside", agreement.outside},
                      {"not_a_number", agreement.not_a_number},
                      {"infinite", agreement.infinite},
-                     {"ulp_of_99_percent", number(agreement.ulp_of_99_percent)},
+                     {"ulp_of_99_percent", json_number(agreement.ulp_of_99_percent)},
                      {"worst_ulp", to_json(agreement.ulp)},
                      {"worst_relative", to_json(agreement.relative)},
                      {"worst_absolute", to_json(agreement.absolute)}};
@@ -83,7 +79,7 @@ ordered_json to_json(const analyze::Trip& trip)
         out["example"] = {{"channel", lost->channel},
                           {"stored", lost->stored},
                           {"expected", lost->expected},
-                          {"returned", number(lost->returned)}};
+                          {"returned", json_number(lost->returned)}};
     return out;
 }
 

@@ -1,40 +1,31 @@
 // JSON: everything the tables and pictures show, for other programs.
+#include "report/markup.h"
 #include "report/packing_layout.h"
 
 #include <nlohmann/json.hpp>
-
-#include <cmath>
 
 namespace lobe::report {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// JSON has no word for what is not finite; a string says it.
-ordered_json number(double value)
-{
-    if (std::isnan(value)) return "nan";
-    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-    return value;
-}
-
 ordered_json by_name(const std::vector<std::pair<std::string, double>>& values)
 {
     ordered_json out = ordered_json::object();
-    for (const auto& [name, value] : values) out[name] = number(value);
+    for (const auto& [name, value] : values) out[name] = json_number(value);
     return out;
 }
 
 ordered_json to_json(const analyze::RadianceError& error)
 {
-    return {{"typical", number(error.typical)},
-            {"below_95_percent", number(error.often)},
-            {"worst", number(error.worst)},
+    return {{"typical", json_number(error.typical)},
+            {"below_95_percent", json_number(error.often)},
+            {"worst", json_number(error.worst)},
             {"at",
              {{"inputs", by_name(error.witness.inputs)},
               {"stored", by_name(error.witness.stored)},
-              {"exact_radiance", number(error.witness.exact)},
-              {"packed_radiance", number(error.witness.packed)}}}};
+              {"exact_radiance", json_number(error.witness.exact)},
+              {"packed_radiance", json_number(error.witness.packed)}}}};
 }
 
 ordered_json to_json(const ir::Module& module, const analyze::PackingErrors& errors)
@@ -107,12 +98,12 @@ ordered_json fields_json(const Packed& packed)
                        {"signed", field.is_signed},
                        {"code", describe(field.code, field.bits)},
                        {"codes", codes.codes},
-                       {"carries", {number(codes.low), number(codes.high)}},
-                       {"default", number(codes.default_value)},
+                       {"carries", {json_number(codes.low), json_number(codes.high)}},
+                       {"default", json_number(codes.default_value)},
                        {"default_code", codes.default_code},
-                       {"default_decoded", number(codes.default_decoded)},
-                       {"largest_step", number(codes.largest_step)},
-                       {"largest_step_from", number(codes.largest_step_from)}});
+                       {"default_decoded", json_number(codes.default_decoded)},
+                       {"largest_step", json_number(codes.largest_step)},
+                       {"largest_step_from", json_number(codes.largest_step_from)}});
     }
     return out;
 }
@@ -127,7 +118,7 @@ ordered_json to_json(const analyze::Suggestion& suggestion)
             points.push_back({{"bits", point.bits},
                               {"signed", point.is_signed},
                               {"code", describe(point.code, point.bits)},
-                              {"worst", number(point.error)}});
+                              {"worst", json_number(point.error)}});
         curves[module.parameters[curve.parameter].name] = std::move(points);
     }
     ordered_json trade = ordered_json::array();
@@ -136,8 +127,8 @@ ordered_json to_json(const analyze::Suggestion& suggestion)
         for (std::size_t i = 0; i < point.shares.size() && i < suggestion.curves.size(); ++i)
             shares[module.parameters[suggestion.curves[i].parameter].name] = point.shares[i];
         trade.push_back({{"bits", point.bits},
-                         {"predicted", number(point.predicted)},
-                         {"measured", number(point.measured)},
+                         {"predicted", json_number(point.predicted)},
+                         {"measured", json_number(point.measured)},
                          {"shares", std::move(shares)}});
     }
     ordered_json out{{"found", suggestion.found}};
@@ -165,7 +156,7 @@ std::string to_json(std::span<const Packed> packings)
                          {"gbuffer", packed.packing->gbuffer},
                          {"suggested", packed.suggestion != nullptr},
                          {"met", packed.met}};
-        if (packed.limit) one["radiance_limit"] = number(*packed.limit);
+        if (packed.limit) one["radiance_limit"] = json_number(*packed.limit);
         if (found) {
             one["layout"] = layout_json(packed);
             one["fields"] = fields_json(packed);

@@ -1,5 +1,6 @@
 // The page: templates/report/packing.html, filled.
 #include "emit/template.h"
+#include "report/markup.h"
 #include "report/packing_plot.h"
 #include "report/packing_svg.h"
 

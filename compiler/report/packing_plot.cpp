@@ -1,6 +1,6 @@
 #include "report/packing_plot.h"
 
-#include "report/packing_svg.h"
+#include "report/markup.h"
 
 #include <fmt/format.h>
 

@@ -3,6 +3,7 @@
 #include "report/packing_svg.h"
 
 #include "emit/template.h"
+#include "report/markup.h"
 #include "report/packing_layout.h"
 
 #include <fmt/format.h>
@@ -147,19 +148,6 @@ private:
 };
 
 }  // namespace
-
-std::string escaped_xml(std::string_view text)
-{
-    std::string out;
-    for (const char c : text) switch (c) {
-        case '<': out += "&lt;"; break;
-        case '>': out += "&gt;"; break;
-        case '&': out += "&amp;"; break;
-        case '"': out += "&quot;"; break;
-        default: out += c;
-        }
-    return out;
-}
 
 std::string title_of(const Packed& packed)
 {

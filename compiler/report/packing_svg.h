@@ -19,7 +19,4 @@ SvgBody layout_body(const Packed& packed);
 /// `callisto on ue4`
 std::string title_of(const Packed& packed);
 
-/// Text that may stand between tags or in double quotes.
-std::string escaped_xml(std::string_view text);
-
 }  // namespace lobe::report

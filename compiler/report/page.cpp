@@ -1,5 +1,6 @@
 // The page: templates/report/verification.html, filled.
 #include "emit/template.h"
+#include "report/markup.h"
 #include "report/verification.h"
 
 #include <fmt/format.h>
@@ -11,19 +12,6 @@ namespace lobe::report {
 namespace {
 
 using emit::Record;
-
-std::string escaped(std::string_view text)
-{
-    std::string out;
-    for (const char c : text) switch (c) {
-        case '<': out += "&lt;"; break;
-        case '>': out += "&gt;"; break;
-        case '&': out += "&amp;"; break;
-        case '"': out += "&quot;"; break;
-        default: out += c;
-        }
-    return out;
-}
 
 Record texts(std::initializer_list<std::pair<const std::string, std::string>> values)
 {
@@ -56,13 +44,14 @@ std::string witness(const analyze::Witness& at)
 {
     return fmt::format("<details><summary>{}</summary><div>{}<br>returned {}, exact {}, allowed "
                        "[{}, {}]</div></details>",
-                       escaped(at.kind), escaped(at.inputs), at.result, at.exact, at.low, at.high);
+                       escaped_xml(at.kind), escaped_xml(at.inputs), at.result, at.exact, at.low,
+                       at.high);
 }
 
 Record row_record(const analyze::Row& row, bool first)
 {
     Record out = texts({{"class", first ? "first" : ""},
-                        {"term", escaped(first ? row.term : "")},
+                        {"term", escaped_xml(first ? row.term : "")},
                         {"target", row.target},
                         {"precision", std::string{name(row.precision)}},
                         {"state", !row.ok()      ? "fails"
@@ -92,7 +81,7 @@ Record row_record(const analyze::Row& row, bool first)
 
 Record module_record(const analyze::Verification& verification)
 {
-    Record out = texts({{"name", escaped(verification.module)}});
+    Record out = texts({{"name", escaped_xml(verification.module)}});
     std::size_t points = 0;
     std::vector<Record>& rows = out.lists["rows"];
     std::string last;
@@ -113,7 +102,7 @@ std::vector<Record> facts(Verifications verifications, const Totals& sum)
         if (!verification.no_device.empty()) device = "none: " + verification.no_device;
     }
     const auto fact = [](std::string title, std::string value, const char* style) {
-        return texts({{"name", std::move(title)}, {"value", escaped(value)}, {"class", style}});
+        return texts({{"name", std::move(title)}, {"value", escaped_xml(value)}, {"class", style}});
     };
     return {fact("verdicts of judges", grouped(sum.verdicts), ""),
             fact("of them refusals", grouped(sum.refusals), sum.refusals > 0 ? "bad" : ""),
@@ -127,7 +116,7 @@ std::vector<Record> judge_records(const JudgeMatrix& matrix)
 {
     std::vector<Record> out;
     for (std::size_t judge = 0; judge < analyze::judge_names().size(); ++judge) {
-        Record record = texts({{"name", escaped(analyze::judge_names()[judge])}});
+        Record record = texts({{"name", escaped_xml(analyze::judge_names()[judge])}});
         std::vector<Record>& scores = record.lists["scores"];
         for (const auto& row : matrix.scores) {
             const Score& score = row[judge];
@@ -153,7 +142,7 @@ std::vector<Record> code_records(Verifications verifications)
     Record section;
     for (const Column& column : table.columns)
         section.lists["titles"].push_back(
-            texts({{"text", escaped(column.title)}, {"class", column.numeric ? "n" : ""}}));
+            texts({{"text", escaped_xml(column.title)}, {"class", column.numeric ? "n" : ""}}));
     for (const auto& row : table.rows) {
         std::vector<Record>& cells = section.lists["rows"].emplace_back().lists["cells"];
         for (std::size_t i = 0; i < row.size(); ++i) {
@@ -162,7 +151,7 @@ std::vector<Record> code_records(Verifications verifications)
                                 : row[i].style == Style::faint ? "soft"
                                                                : "";
             cells.push_back(texts(
-                {{"text", escaped(row[i].text)},
+                {{"text", escaped_xml(row[i].text)},
                  {"class", fmt::format("{}{}", table.columns[i].numeric ? "n " : "", style)}}));
         }
     }
@@ -179,7 +168,7 @@ std::string to_page(Verifications verifications, bool with_times)
     for (const analyze::Verification& verification : verifications)
         names += (names.empty() ? "" : ", ") + verification.module;
 
-    Record page = texts({{"title", escaped("Verification of " + names)},
+    Record page = texts({{"title", escaped_xml("Verification of " + names)},
                          {"verdict_class", sum.ok() ? "good" : "bad"}});
     page.texts["verdict"] =
         !sum.ok() ? fmt::format("{} of {} rows fail, {} texts were refused{}.",
@@ -199,14 +188,14 @@ std::string to_page(Verifications verifications, bool with_times)
         for (const std::string& note : verification.notes) {
             if (std::ranges::find(said, note) != said.end()) continue;
             said.push_back(note);
-            notes.push_back(texts({{"text", escaped(note)}}));
+            notes.push_back(texts({{"text", escaped_xml(note)}}));
         }
     std::vector<Record>& found = page.lists["findings"];
     if (const std::string text = findings(verifications, {}); !text.empty())
-        found.push_back(texts({{"text", escaped(text)}}));
+        found.push_back(texts({{"text", escaped_xml(text)}}));
     std::vector<Record>& targets = page.lists["targets"];
     for (const std::string& target : matrix.targets)
-        targets.push_back(texts({{"name", escaped(target)}}));
+        targets.push_back(texts({{"name", escaped_xml(target)}}));
     page.lists["judges"] = judge_records(matrix);
     page.lists["codes"] = code_records(verifications);
     std::vector<Record>& modules = page.lists["modules"];
