@@ -25,6 +25,7 @@ int main(int argc, char** argv)
     app.footer("Examples:\n"
                "  lobec build models/callisto.lobe -o out\n"
                "  lobec pack models/callisto.lobe --svg layout.svg\n"
+               "  lobec patch models/callisto.lobe --engine ~/UnrealEngine -o callisto.patch\n"
                "  lobec verify models --json result.json\n"
                "  lobec explain E0501\n"
                "`lobec COMMAND --help` shows each command with an example.\n"
