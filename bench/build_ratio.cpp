@@ -57,7 +57,7 @@ int main(int argc, char** argv)
 
     std::vector<emit::Artifact> artifacts;  // per module, one per target
     const auto load = [&] {
-        cli::Program program = cli::load(terminal, {models});
+        cli::Program program = cli::read_and_check(terminal, {models});
         if (program.status != cli::success) {
             cli::print(terminal, program.diagnostics, program.sources);
             std::exit(program.status);
@@ -73,6 +73,13 @@ int main(int argc, char** argv)
     };
     const auto build = [&] { artifacts = cli::build(load(), targets); };
 
+    // `callisto/ue4/Callisto.ush`
+    const auto target_of = [](const emit::Artifact& artifact) -> const emit::Target& {
+        const std::size_t begin = artifact.path.find('/') + 1;
+        return *emit::find_target(
+            artifact.path.substr(begin, artifact.path.find('/', begin) - begin));
+    };
+
     build();
     struct Text {
         std::string text;
@@ -80,7 +87,7 @@ int main(int argc, char** argv)
     };
     std::vector<Text> texts;
     for (std::size_t i = 0; i < artifacts.size(); ++i) {
-        const emit::Target& target = *targets[i % targets.size()];
+        const emit::Target& target = target_of(artifacts[i]);
         texts.push_back({emit::frame(artifacts[i], target).text, dialect(target.language)});
     }
     const auto parse = [&] {
@@ -141,7 +148,7 @@ int main(int argc, char** argv)
     if (!has_validator) return 0;
     const double validated = median(times[4]) + median(times[5]);
     fmt::print("as commands\n");
-    line("lobec build", times[3], validated);
+    line("lobec build, radiance measured", times[3], validated);
     line("glslangValidator, GLSL at once", times[4], validated);
     line("glslangValidator, HLSL one by one", times[5], validated);
     return 0;
