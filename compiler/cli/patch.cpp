@@ -168,8 +168,20 @@ struct Patch {
         }
         Wanted wanted;
         wanted.request = {values->model, values->values, values->words, {}};
-        for (emit::Artifact& artifact : back(module, program.sources, {emit::find_target("ue4")}))
-            wanted.request.files.emplace_back(file_name(artifact.path), std::move(artifact.text));
+        const auto take_shaders = [&wanted](const ir::Module& from, const Sources& sources) {
+            for (emit::Artifact& artifact : back(from, sources, {emit::find_target("ue4")}))
+                wanted.request.files.emplace_back(file_name(artifact.path),
+                                                  std::move(artifact.text));
+        };
+        take_shaders(module, program.sources);
+        // A model of another module is in that module's own files.
+        const std::string& owner = module.packings[*packing].model.module;
+        if (owner != module.name) {
+            const auto beside = std::filesystem::path{input}.parent_path() / (owner + ".lobe");
+            const Program imported = read_and_check(terminal, {beside.generic_string()});
+            for (const ir::Module& one : imported.modules)
+                take_shaders(middle(one), imported.sources);
+        }
         if (const ir::Gbuffer* gbuffer = module.find_gbuffer(block.gbuffer))
             wanted.versions = supported_versions(*gbuffer, module.packings[*packing]);
         if (!block.node) return wanted;

@@ -506,6 +506,39 @@ TEST_CASE("one of several engine blocks is chosen by its shading model", "[patch
     CHECK(place.patch("--apply --model Skin").status == 0);
 }
 
+TEST_CASE("a model of another file is patched in with that file's shaders", "[patch]")
+{
+    // A layout of one's own for a model that ships.
+    const Place place{lobe::engine::engine_tree("4.27"), R"(module game
+
+import callisto { callisto }
+import ue4_gbuffer { ue4 }
+
+packing callisto on ue4 {
+  d.r = diffuse_fresnel : unorm 8 code power(8, 127/255)
+  supports ray_tracing == off
+}
+
+engine ue4 for callisto {
+  shading_model "Game"
+  pin custom_data0 = diffuse_fresnel
+}
+)"};
+    for (const std::string name : {"callisto.lobe", "microfacet.lobe"})
+        fs::copy_file(ROOT "/models/" + name, place.path(name));
+    const Outcome outcome = place.patch("--apply", true);
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.err, !Contains("warning"));
+    CHECK_THAT(place.read("tree/" + shaders + "Callisto.ush"), Contains("CallistoBxDF("));
+    CHECK_THAT(place.read("tree/" + shaders + "GamePacking.ush"),
+               Contains("#define CALLISTO_PARAMETERS("));
+    CHECK_FALSE(fs::exists(place.path("tree/" + shaders + "CallistoPacking.ush")));
+    CHECK(place.patch("--check", true).status == 0);
+    CHECK(place.patch("--revert").status == 0);
+    CHECK(place.tree() == lobe::engine::engine_tree("4.27"));
+}
+
 TEST_CASE("the guide tells what the patch of the shipped model does", "[patch]")
 {
     std::ifstream in{ROOT "/docs/unreal.md", std::ios::binary};
