@@ -18,7 +18,7 @@ constexpr int rounds = 96;
 /// One thing to measure: some coordinates stored, the others as they are.
 struct Question {
     StoredAs stored;
-    std::vector<Peak> best;       ///< per chunk, its worst point
+    std::vector<Peak> best;        ///< per chunk, its worst point
     std::vector<double> anywhere;  ///< errors of the points that are uniform over the box
 };
 

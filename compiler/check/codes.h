@@ -36,8 +36,8 @@ bool check_inverse(const Program& program, const CodeDeclaration& code, const So
 bool is_builtin_code(std::string_view name);
 
 /// The code of a field; linear where the clause names none. `field` has its component, its bits,
-/// its sign and its range, `parameter` is what it stores. Nothing if it makes no sense (reported: E0610, and E0607
-/// where the range is wider than a declared code's).
+/// its sign and its range, `parameter` is what it stores. Nothing if it makes no sense (reported:
+/// E0610, and E0607 where the range is wider than a declared code's).
 std::optional<ir::Code> read_code(Program& program, std::size_t file,
                                   const syntax::FieldClause& clause, const ir::Field& field,
                                   const ir::Parameter& parameter, Diagnostics& diagnostics);

@@ -9,7 +9,8 @@ namespace lobe::emit {
 
 /// `line` broken into pieces that fit 100 columns when they start at `column`: behind a comma or
 /// before a binary operator, where the fewest parentheses are open, as late as fits; else behind an
-/// assignment's `=`. Pieces after the first start with `indent`. A piece without such a place stays too wide.
+/// assignment's `=`. Pieces after the first start with `indent`. A piece without such a place stays
+/// too wide.
 std::string wrap(std::string_view line, std::size_t column, std::string_view indent);
 
 /// Prose broken at spaces, as lines of at most `width` columns. No line ends in a backslash.

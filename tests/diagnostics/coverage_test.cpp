@@ -16,10 +16,8 @@ namespace {
 
 /// Code to the test that proves it, relative to tests/.
 const std::map<std::string, std::string> elsewhere{
-    {"E0001", "cli/bad_input_test.cpp"},
-    {"E0003", "cli/bad_input_test.cpp"},
-    {"E0612", "analyze/radiance_test.cpp"},
-    {"E0701", "analyze/verify_test.cpp"},
+    {"E0001", "cli/bad_input_test.cpp"},    {"E0003", "cli/bad_input_test.cpp"},
+    {"E0612", "analyze/radiance_test.cpp"}, {"E0701", "analyze/verify_test.cpp"},
     {"E0702", "cli/bad_input_test.cpp"},
 };
 
