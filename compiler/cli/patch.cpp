@@ -73,13 +73,6 @@ std::string file_name(const std::string& path)
     return std::filesystem::path{path}.filename().string();
 }
 
-std::string upper(std::string text)
-{
-    for (char& c : text)
-        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    return text;
-}
-
 /// A tree in which some files are as a plan would have them.
 analyze::EngineShaders::Read overlaid(const engine::Tree& tree,
                                       const std::vector<engine::Change>& changes)
@@ -221,12 +214,13 @@ struct Patch {
     {
         // The tree may hold an earlier patch; without it, it is the engine's own.
         const engine::Plan clean = engine::plan_revert(files, list, wanted.request);
-        return analyze::check_engine_shaders({.original = overlaid(files, clean.changes),
-                                              .patched = overlaid(files, changes),
-                                              .folder = "Engine/Shaders/Private",
-                                              .shading_model = upper(wanted.request.model),
-                                              .node_function = wanted.node,
-                                              .node_inputs = wanted.node_inputs});
+        return analyze::check_engine_shaders(
+            {.original = overlaid(files, clean.changes),
+             .patched = overlaid(files, changes),
+             .folder = "Engine/Shaders/Private",
+             .shading_model = wanted.request.values.texts.at("MODEL"),
+             .node_function = wanted.node,
+             .node_inputs = wanted.node_inputs});
     }
 
     int carry_out(const Terminal& terminal, report::PatchReport& result) const

@@ -237,11 +237,7 @@ Harness run_bxdf(const ir::Module& module, const ir::Model& model, const ir::Mod
     Framed framed = insert(render_embedded("harness/bxdf.hlsl", values).text, artifact.text);
     result.artifact.path = fmt::format("{}/ue4/harness/{}.hlsl", module.name, entry.name);
     result.artifact.text = std::move(framed.text);
-    for (LineOrigin origin : artifact.origins) {
-        origin.first += framed.first_line - 1;
-        origin.last += framed.first_line - 1;
-        result.artifact.origins.push_back(origin);
-    }
+    result.artifact.origins = moved_down(artifact.origins, framed.first_line - 1);
     return result;
 }
 
@@ -250,11 +246,8 @@ Artifact joined(Artifact first, const Artifact& second)
 {
     const auto lines = static_cast<int>(std::ranges::count(first.text, '\n'));
     first.text += second.text;
-    for (LineOrigin origin : second.origins) {
-        origin.first += lines;
-        origin.last += lines;
+    for (const LineOrigin& origin : moved_down(second.origins, lines))
         first.origins.push_back(origin);
-    }
     return first;
 }
 

@@ -109,4 +109,13 @@ Framed frame(const Artifact& artifact, const Target& target)
     return insert(render_embedded(path, values).text, artifact.text);
 }
 
+std::vector<LineOrigin> moved_down(std::vector<LineOrigin> origins, int lines)
+{
+    for (LineOrigin& origin : origins) {
+        origin.first += lines;
+        origin.last += lines;
+    }
+    return origins;
+}
+
 }  // namespace lobe::emit

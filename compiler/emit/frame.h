@@ -34,6 +34,9 @@ std::vector<std::string> root_calls(const ir::Module& module,
                                     const std::vector<ir::FunctionId>& roots,
                                     const Listing& listing, const Dialect& dialect);
 
+/// Places of an artifact that now stands `lines` further down in a text.
+std::vector<LineOrigin> moved_down(std::vector<LineOrigin> origins, int lines);
+
 /// The files of one module for GLSL, ESSL or HLSL. Those of one dialect say the same, but for
 /// whether they state a precision.
 class ShadingFiles {

@@ -1,5 +1,6 @@
 // The compute shader that takes codes out of a packing's channels and puts them back, at many
 // points.
+#include "emit/frame.h"
 #include "emit/packing.h"
 
 #include <fmt/format.h>
@@ -160,11 +161,7 @@ Harness packing_harness(const ir::Module& module, const Sources& sources, std::s
         fmt::format("{}/{}/harness/{}_on_{}{}", module.name, target.name, packed.model.name,
                     packed.gbuffer, target.language == Language::hlsl ? ".hlsl" : ".comp");
     result.artifact.text = std::move(framed.text);
-    for (LineOrigin origin : artifact.origins) {
-        origin.first += framed.first_line - 1;
-        origin.last += framed.first_line - 1;
-        result.artifact.origins.push_back(origin);
-    }
+    result.artifact.origins = moved_down(artifact.origins, framed.first_line - 1);
     return result;
 }
 

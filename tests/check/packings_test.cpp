@@ -103,11 +103,12 @@ TEST_CASE("the functions of a packing are in the module", "[check][packings]")
     REQUIRE(packing.parameters.size() == 2);
     CHECK(inputs_of(module[packing.channels[0].pack]) == "fuzz width");
     CHECK(inputs_of(module[packing.channels[1].pack]) == "fuzz");
-    // 1 is code 500, which is 01 11110100; 0.5 is code 31.
+    // 1 is code 500, which is 01 11110100; 0.5 is code 31. The factor 1 / 255 is a float, rounded
+    // down: less than 2^-23 of it is lost.
     CHECK(value_at(module, module[packing.channels[0].pack], {1, 0.5}) ==
-          Approx((31 * 4 + 1) / 255.0).epsilon(1e-6));
+          Approx((31 * 4 + 1) / 255.0).epsilon(0x1p-23));
     CHECK(value_at(module, module[packing.channels[1].pack], {1}) ==
-          Approx(0xF4 / 255.0).epsilon(1e-6));
+          Approx(0xF4 / 255.0).epsilon(0x1p-23));
     const auto& unpacked = packing.parameters[0];
     CHECK(module.parameters[unpacked.parameter].name == "fuzz");
     CHECK(value_at(module, module[unpacked.unpack], {125 / 255.0, 0xF4 / 255.0}) == 1);
