@@ -1,0 +1,30 @@
+// How far results are from what they should be, in the units people judge by.
+//
+// Relative where it is bright, absolute where it is dark: the difference over the exact value or,
+// if that is smaller, over a floor. For radiance the floor is an 18 % grey card lit alike (0.18 /
+// pi n.l, see radiance.h); for a term it is 0.18. And in 8-bit codes as a display shows it: clamped
+// to [0, 1], encoded by the sRGB curve (IEC 61966-2-1), times 255; not rounded.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace lobe::analyze {
+
+struct Deviation {
+    double scaled = 0;            ///< greatest; 0.02 is 2 %
+    double typical = 0;           ///< median of the same
+    double absolute = 0;          ///< greatest
+    double root_mean_square = 0;  ///< of the absolute difference
+    double codes = 0;             ///< greatest difference on a display, in 8-bit codes
+    std::size_t points = 0;
+    std::size_t not_finite =
+        0;           ///< points where the result is NaN or infinite and the exact is not
+    std::string at;  ///< inputs of the greatest scaled one: `roughness = 0.5, l = (0, 0, 1)`
+};
+
+/// 0 .. 255 for a linear value.
+double display_code(double linear);
+
+}  // namespace lobe::analyze

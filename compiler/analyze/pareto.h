@@ -1,0 +1,79 @@
+// Error against cost: every way to compute a term, and every joint choice for a model.
+//
+//   form (definition, written, found)  x  spelling  x  number format
+//
+// each with its model error over the reals, its rounding error, and its cost on every family. A
+// point is dominated on a family where another one costs no more, errs no more, and is better in
+// one of the two. For a model the error is end to end, on radiance.
+#pragma once
+
+#include "analyze/cost.h"
+#include "analyze/deviation.h"
+#include "optimize/forms.h"
+#include "optimize/spelling.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lobe::analyze {
+
+/// What a trade is judged on: the cost columns that a frontier is drawn for.
+struct Standing {
+    bool on_frontier = false;
+    std::optional<std::size_t> dominated_by;  ///< another candidate of the same list
+};
+
+struct Candidate {
+    optimize::Choice choice;  ///< form by term; empty: the definition everywhere
+    optimize::Spelling spelling{};
+    Format format{};
+    bool found = false;      ///< a form that the compiler made
+    bool selectable = true;  ///< false: shown, but a build cannot emit it (a table, packed half)
+    std::string note;        ///< why it is not selectable, or what it is: `table 32 x 32, unorm 16`
+    Deviation model;         ///< over the reals
+    Deviation rounding;      ///< of the CPU's or the device's evaluation in `format`
+    Deviation total;         ///< both together: what is judged
+    std::optional<double> proved_rounding;  ///< bound of the scaled rounding error
+    Cost cost;                              ///< given its fields
+    Cost from_vectors;                      ///< with what the fields take
+    std::vector<Standing> standing;  ///< per family, by cost from vectors for models, else by cost
+};
+
+std::string describe(const Candidate& candidate);  ///< `F_Schlick: spherical_gaussian; half`
+
+struct Trade {
+    std::string name;  ///< of a term or a model
+    bool whole_model = false;
+    std::vector<Candidate> candidates;  ///< the definition, stable, float, is first
+    /// What was searched, in words: `all 216 combinations`, or how far from exact it may be.
+    std::string search;
+    std::optional<Deviation> quantization;  ///< of the model's packing, all parameters together
+};
+
+struct ParetoOptions {
+    CostOptions cost;
+    std::size_t points = std::size_t{1} << 15;
+    bool terms = true;
+    bool models = true;
+    std::function<void(const Progress&)> progress;
+};
+
+struct Pareto {
+    std::string module;
+    std::vector<Trade> trades;
+    Costs about;  ///< drivers and devices; its `costs` are empty
+    double seconds = 0;
+};
+
+/// `checked` has not been through optimize.
+Pareto pareto(const ir::Module& checked, const Sources& sources, const ParetoOptions& options,
+              const Store& store);
+
+/// The selectable candidate of a model that is cheapest on a family with at most this scaled total
+/// error, or most accurate within this many issue cycles. Nothing if there is none.
+std::optional<std::size_t> cheapest_within(const Trade& trade, Family family, double max_error);
+std::optional<std::size_t> most_accurate_within(const Trade& trade, Family family, double cycles);
+
+}  // namespace lobe::analyze
