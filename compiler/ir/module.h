@@ -96,10 +96,11 @@ struct Module {
     std::vector<Parameter> parameters;
     std::vector<Function> functions;  ///< callees first; imported ones included
     std::vector<Effect> effects;
-    std::vector<Model> models;      ///< this module's own
-    std::vector<Gbuffer> gbuffers;  ///< its own, and those that its packings and engines name
-    std::vector<Packing> packings;  ///< its own
-    std::vector<Engine> engines;    ///< its own
+    std::vector<Model> models;         ///< this module's own
+    std::vector<Gbuffer> gbuffers;     ///< its own, and those that its packings and engines name
+    std::vector<Packing> packings;     ///< its own
+    std::vector<Engine> engines;       ///< its own
+    std::vector<std::string> remarks;  ///< how it is compiled, for the banner of what is emitted
 
     const Function& operator[](FunctionId id) const { return functions[id.index]; }
     std::optional<FunctionId> find(std::string_view function_name) const;
