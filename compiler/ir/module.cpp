@@ -83,7 +83,8 @@ Module without_functions(const Module& module)
             .models = module.models,
             .gbuffers = module.gbuffers,
             .packings = module.packings,
-            .engines = module.engines};
+            .engines = module.engines,
+            .remarks = module.remarks};
 }
 
 Function without_body(const Function& function)
