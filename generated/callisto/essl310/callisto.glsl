@@ -42,7 +42,7 @@ vec3 guarded_normalize(vec3 v)
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = 2 * (1 - x)
 // Expects x in [0, 1]. Returns [0, 2].
-// models/callisto.lobe:61
+// models/callisto.lobe:62
 float falloff_scale(float x)
 {
     return 2.0 * (1.0 - x);
@@ -53,7 +53,7 @@ float falloff_scale(float x)
 // = (1 - cos_theta)^(5 * n) * cos_phi^(5 * m)
 // Expects one_minus_cos_theta in [0, 1], n in [0, 2], cos_phi in [0, 1], m in [0, 2]. Returns
 // [0, 1].
-// models/callisto.lobe:65
+// models/callisto.lobe:66
 float blend_weight(float one_minus_cos_theta, float n, float cos_phi, float m)
 {
     float t0 = guarded_power(one_minus_cos_theta, 5.0 * n);
@@ -69,7 +69,7 @@ float blend_weight(float one_minus_cos_theta, float n, float cos_phi, float m)
 // falloff_scale(diffuse_fresnel_tangent_falloff))
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 1].
-// models/callisto.lobe:73
+// models/callisto.lobe:78
 float alpha_f(float NoH, float OneMinusVoH, float diffuse_fresnel_falloff,
     float diffuse_fresnel_tangent_falloff)
 {
@@ -84,7 +84,7 @@ float alpha_f(float NoH, float OneMinusVoH, float diffuse_fresnel_falloff,
 // falloff_scale(retroreflection_tangent_falloff))
 // OneMinusNoH is |n x h|^2 / (1 + n.h).
 // Returns [0, 1].
-// models/callisto.lobe:83
+// models/callisto.lobe:88
 float alpha_r(float VoH, float OneMinusNoH, float retroreflection_falloff,
     float retroreflection_tangent_falloff)
 {
@@ -100,7 +100,7 @@ float alpha_r(float VoH, float OneMinusNoH, float retroreflection_falloff,
 // OneMinusNoH is |n x h|^2 / (1 + n.h).
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 65536].
-// models/callisto.lobe:93
+// models/callisto.lobe:98
 vec3 c1(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH, float diffuse_fresnel,
     float diffuse_fresnel_falloff, float retroreflection, float retroreflection_falloff,
     vec3 diffuse_fresnel_tint, vec3 retroreflection_tint, float diffuse_fresnel_tangent_falloff,
@@ -121,7 +121,7 @@ vec3 c1(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH, float diffus
 // OneMinusNoH is |n x h|^2 / (1 + n.h).
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 1].
-// models/callisto.lobe:100
+// models/callisto.lobe:105
 float alpha_s(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH)
 {
     float t0 = NoH * (1.0 + OneMinusNoH * (1.0 + OneMinusNoH));
@@ -135,7 +135,7 @@ float alpha_s(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH)
 // OneMinusNoH is |n x h|^2 / (1 + n.h).
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 2].
-// models/callisto.lobe:104
+// models/callisto.lobe:109
 vec3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
     float smooth_terminator, vec3 smooth_terminator_tint, float smooth_terminator_length)
 {
@@ -150,7 +150,7 @@ vec3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
 // = let r = falloff_scale(specular_fresnel_falloff); f0 + saturate(2 - r) * (1 - f0) * (1 -
 // cos_d)^(5 * r)
 // Expects f0 in [0, 1], one_minus_cos_d in [0, 1].
-// models/callisto.lobe:116
+// models/callisto.lobe:121
 vec3 F_Callisto(vec3 f0, float one_minus_cos_d, float specular_fresnel_falloff)
 {
     float r = falloff_scale(specular_fresnel_falloff);
@@ -169,7 +169,7 @@ vec3 F_Callisto(vec3 f0, float one_minus_cos_d, float specular_fresnel_falloff)
 // * roughening) + 0.19 * roughening; if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi *
 // brightness else 0
 // Expects diffuse_color in [0, 1], alpha in [0.000244140625, 1]. Returns [0, 0.4].
-// models/callisto.lobe:128
+// models/callisto.lobe:143
 vec3 proxima_cos(vec3 diffuse_color, float alpha, float NoL, float NoV, float VoL)
 {
     float roughening = alpha * (1.0 - sqrt(max(-VoL, 0.0)));
@@ -182,7 +182,7 @@ vec3 proxima_cos(vec3 diffuse_color, float alpha, float NoL, float NoV, float Vo
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
 // Expects diffuse_color in [0, 1].
-// models/microfacet.lobe:251
+// models/microfacet.lobe:298
 vec3 Diffuse_Lambert(vec3 diffuse_color)
 {
     return diffuse_color / 3.1415927;
@@ -192,7 +192,7 @@ vec3 Diffuse_Lambert(vec3 diffuse_color)
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = if g.cos_i > 0 and g.cos_o > 0 then Diffuse_Lambert(diffuse_color) * g.cos_i else 0
 // Expects diffuse_color in [0, 1].
-// models/callisto.lobe:141
+// models/callisto.lobe:158
 vec3 lambert_cos(vec3 diffuse_color, float NoL, float NoV)
 {
     return 0.0 < NoL && 0.0 < NoV ? Diffuse_Lambert(diffuse_color) * NoL : vec3(0.0);
@@ -217,7 +217,7 @@ float D_GGX(float alpha, float NxH2)
 // = let i = g.cos_i + sqrt(alpha^2 + (1 - alpha^2) * g.cos_i^2); let o = g.cos_o + sqrt(alpha^2 +
 // (1 - alpha^2) * g.cos_o^2); 1 / (i * o)
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:182
+// models/microfacet.lobe:186
 float V_SmithGGX(float alpha, float NoL, float NoV)
 {
     float alpha2 = alpha * alpha;
@@ -232,7 +232,7 @@ float V_SmithGGX(float alpha, float NoL, float NoV)
 // = D_GGX(roughness^2, g) * V_SmithGGX(roughness^2, g)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects roughness in [0.015625, 1].
-// models/callisto.lobe:148
+// models/callisto.lobe:165
 float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 {
     float roughness2 = roughness * roughness;
@@ -248,7 +248,7 @@ float lobe_ggx(float roughness, float NoL, float NoV, float NxH2)
 // lobe_ggx(second, g), dual_specular_opacity)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects roughness in [0.015625, 1].
-// models/callisto.lobe:156
+// models/callisto.lobe:173
 float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
     float dual_specular_roughness_scale, float dual_specular_opacity)
 {
@@ -265,7 +265,7 @@ float dual_ggx(float roughness, float NoL, float NoV, float NxH2,
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Expects f0 in [0, 1], roughness in [0.015625, 1].
-// models/callisto.lobe:164
+// models/callisto.lobe:183
 vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, float OneMinusVoH,
     float specular_fresnel_falloff, float dual_specular_roughness_scale,
     float dual_specular_opacity)
@@ -281,7 +281,7 @@ vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, fl
 // = c1(g) * proxima_cos(s.diffuse_color, s.alpha, g) * c2(g)
 // OneMinusNoH is |n x h|^2 / (1 + n.h).
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
-// models/callisto.lobe:182
+// models/callisto.lobe:201
 vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, float OneMinusNoH,
     float OneMinusVoH, float roughness, vec3 diffuse_color, float diffuse_fresnel,
     float diffuse_fresnel_falloff, float retroreflection, float retroreflection_falloff,
@@ -304,7 +304,7 @@ vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, flo
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // OneMinusNoH is |n x h|^2 / (1 + n.h).
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
-// models/callisto.lobe:183
+// models/callisto.lobe:202
 vec3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusNoH,
     float OneMinusVoH, float roughness, vec3 f0, float smooth_terminator,
     vec3 smooth_terminator_tint, float specular_fresnel_falloff,
@@ -324,7 +324,7 @@ vec3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, f
 // = c1(g) * lambert_cos(s.diffuse_color, g) * c2(g)
 // OneMinusNoH is |n x h|^2 / (1 + n.h).
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
-// models/callisto.lobe:190
+// models/callisto.lobe:209
 vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float OneMinusNoH,
     float OneMinusVoH, vec3 diffuse_color, float diffuse_fresnel, float diffuse_fresnel_falloff,
     float retroreflection, float retroreflection_falloff, float smooth_terminator,
@@ -347,7 +347,7 @@ vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float 
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // OneMinusNoH is |n x h|^2 / (1 + n.h).
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
-// models/callisto.lobe:191
+// models/callisto.lobe:210
 vec3 callisto_lambert_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
     float OneMinusNoH, float OneMinusVoH, float roughness, vec3 f0, float smooth_terminator,
     vec3 smooth_terminator_tint, float specular_fresnel_falloff,
@@ -435,7 +435,7 @@ struct CallistoResult
 
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
-// models/callisto.lobe:181
+// models/callisto.lobe:200
 // All vectors have length 1 and point away from the surface.
 CallistoResult callisto(vec3 l, vec3 v, vec3 n, CallistoSurface surface,
     CallistoParameters parameters)
@@ -543,7 +543,7 @@ struct CallistoLambertResult
 // Callisto over Lambert: at the defaults exactly Lambert, GGX and Schlick.
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
-// models/callisto.lobe:189
+// models/callisto.lobe:208
 // All vectors have length 1 and point away from the surface.
 CallistoLambertResult callisto_lambert(vec3 l, vec3 v, vec3 n, CallistoLambertSurface surface,
     CallistoLambertParameters parameters)

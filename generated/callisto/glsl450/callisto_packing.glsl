@@ -31,7 +31,7 @@
 // The code of diffuse_fresnel: 64 codes over [0, 256], power(6, 25/63).
 // = round(25 * x^(1/6))
 // Returns [0, 63].
-// models/callisto.lobe:201
+// models/callisto.lobe:220
 float encode_diffuse_fresnel(float x)
 {
     return floor(pow(clamp(x, 0.0, 256.0), 0.16666667) * 25.0 + 0.5);
@@ -40,7 +40,7 @@ float encode_diffuse_fresnel(float x)
 // Bits 2..7 of d.r: diffuse_fresnel, 64 codes over [0, 256], power(6, 25/63).
 // = (code / 25)^6
 // Expects code in [0, 63]. Returns [0, 256].
-// models/callisto.lobe:201
+// models/callisto.lobe:220
 float decode_diffuse_fresnel(float code)
 {
     float base = max(1.0 + (code - 25.0) * 0.040000003, 0.0);
@@ -51,7 +51,7 @@ float decode_diffuse_fresnel(float code)
 // The code of diffuse_fresnel_falloff: 64 codes over [0, 0.875], halving(42/63).
 // = round(-21 * log2(1 - x))
 // Returns [0, 63].
-// models/callisto.lobe:202
+// models/callisto.lobe:221
 float encode_diffuse_fresnel_falloff(float x)
 {
     return floor(log2(1.0 - clamp(x, 0.0, 0.875)) * -21.0 + 0.5);
@@ -61,7 +61,7 @@ float encode_diffuse_fresnel_falloff(float x)
 // halving(42/63).
 // = 1 - 0.25^(code / 42)
 // Expects code in [0, 63]. Returns [0, 0.875].
-// models/callisto.lobe:202
+// models/callisto.lobe:221
 float decode_diffuse_fresnel_falloff(float code)
 {
     return code == 42.0 ? 0.75 : clamp(1.0 - exp2(code * -0.04761905), 0.0, 0.875);
@@ -70,7 +70,7 @@ float decode_diffuse_fresnel_falloff(float code)
 // The code of retroreflection_falloff: 64 codes over [0, 0.875], halving(42/63).
 // = round(-21 * log2(1 - x))
 // Returns [0, 63].
-// models/callisto.lobe:203
+// models/callisto.lobe:222
 float encode_retroreflection_falloff(float x)
 {
     return floor(log2(1.0 - clamp(x, 0.0, 0.875)) * -21.0 + 0.5);
@@ -80,7 +80,7 @@ float encode_retroreflection_falloff(float x)
 // halving(42/63).
 // = 1 - 0.25^(code / 42)
 // Expects code in [0, 63]. Returns [0, 0.875].
-// models/callisto.lobe:203
+// models/callisto.lobe:222
 float decode_retroreflection_falloff(float code)
 {
     return code == 42.0 ? 0.75 : clamp(1.0 - exp2(code * -0.04761905), 0.0, 0.875);
@@ -89,7 +89,7 @@ float decode_retroreflection_falloff(float code)
 // The code of smooth_terminator: 64 codes over [-1, 0.9375], halving(12/63).
 // = round(-12 * log2((1 - x) / 2))
 // Returns [0, 63].
-// models/callisto.lobe:204
+// models/callisto.lobe:223
 float encode_smooth_terminator(float x)
 {
     return floor(log2((1.0 - clamp(x, -1.0, 0.9375)) * 0.5) * -12.0 + 0.5);
@@ -98,7 +98,7 @@ float encode_smooth_terminator(float x)
 // Bits 0..5 of d.b: smooth_terminator, 64 codes over [-1, 0.9375], halving(12/63).
 // = 1 - 2 * 0.5^(code / 12)
 // Expects code in [0, 63]. Returns [-1, 0.9375].
-// models/callisto.lobe:204
+// models/callisto.lobe:223
 float decode_smooth_terminator(float code)
 {
     float t0 = clamp(1.0 - exp2(code * -0.083333336) * 2.0, -1.0, 0.9375);
@@ -108,7 +108,7 @@ float decode_smooth_terminator(float code)
 // The code of retroreflection: 256 codes over [0, 256], power(11, 154/255).
 // = round(154 * x^(1/11))
 // Returns [0, 255].
-// models/callisto.lobe:205
+// models/callisto.lobe:224
 float encode_retroreflection(float x)
 {
     return floor(pow(clamp(x, 0.0, 256.0), 0.09090909) * 154.0 + 0.5);
@@ -117,7 +117,7 @@ float encode_retroreflection(float x)
 // d.a: retroreflection, 256 codes over [0, 256], power(11, 154/255).
 // = (code / 154)^11
 // Expects code in [0, 255]. Returns [0, 256].
-// models/callisto.lobe:205
+// models/callisto.lobe:224
 float decode_retroreflection(float code)
 {
     float base = max(1.0 + (code - 154.0) * 0.006493507, 0.0);
@@ -129,7 +129,7 @@ float decode_retroreflection(float code)
 // What d.r stores (CustomData.x): diffuse_fresnel in bits 2..7, diffuse_fresnel_falloff in bits
 // 0..1 (2 of its 6 bits).
 // Returns [0, 1].
-// models/callisto.lobe:200
+// models/callisto.lobe:219
 float pack_d_r(float diffuse_fresnel, float diffuse_fresnel_falloff)
 {
     float diffuse_fresnel_code = encode_diffuse_fresnel(diffuse_fresnel);
@@ -141,7 +141,7 @@ float pack_d_r(float diffuse_fresnel, float diffuse_fresnel_falloff)
 // What d.g stores (CustomData.y): diffuse_fresnel_falloff in bits 4..7 (4 of its 6 bits),
 // retroreflection_falloff in bits 0..3 (4 of its 6 bits).
 // Returns [0, 1].
-// models/callisto.lobe:200
+// models/callisto.lobe:219
 float pack_d_g(float diffuse_fresnel_falloff, float retroreflection_falloff)
 {
     float diffuse_fresnel_falloff_code = encode_diffuse_fresnel_falloff(diffuse_fresnel_falloff);
@@ -154,7 +154,7 @@ float pack_d_g(float diffuse_fresnel_falloff, float retroreflection_falloff)
 // What d.b stores (CustomData.z): retroreflection_falloff in bits 6..7 (2 of its 6 bits),
 // smooth_terminator in bits 0..5.
 // Returns [0, 1].
-// models/callisto.lobe:200
+// models/callisto.lobe:219
 float pack_d_b(float retroreflection_falloff, float smooth_terminator)
 {
     float retroreflection_falloff_code = encode_retroreflection_falloff(retroreflection_falloff);
@@ -166,7 +166,7 @@ float pack_d_b(float retroreflection_falloff, float smooth_terminator)
 
 // What d.a stores (CustomData.w): retroreflection.
 // Returns [0, 1].
-// models/callisto.lobe:200
+// models/callisto.lobe:219
 float pack_d_a(float retroreflection)
 {
     float retroreflection_code = encode_retroreflection(retroreflection);
@@ -175,7 +175,7 @@ float pack_d_a(float retroreflection)
 
 // diffuse_fresnel as it was stored: bits 2..7 of d.r.
 // Expects d_r in [0, 1]. Returns [0, 256].
-// models/callisto.lobe:201
+// models/callisto.lobe:220
 float unpack_diffuse_fresnel(float d_r)
 {
     float d_r_code = floor(d_r * 255.0 + 0.5);
@@ -184,7 +184,7 @@ float unpack_diffuse_fresnel(float d_r)
 
 // diffuse_fresnel_falloff as it was stored: bits 0..1 of d.r, bits 4..7 of d.g.
 // Expects d_r in [0, 1], d_g in [0, 1]. Returns [0, 1].
-// models/callisto.lobe:202
+// models/callisto.lobe:221
 float unpack_diffuse_fresnel_falloff(float d_r, float d_g)
 {
     float d_r_code = floor(d_r * 255.0 + 0.5);
@@ -195,7 +195,7 @@ float unpack_diffuse_fresnel_falloff(float d_r, float d_g)
 
 // retroreflection as it was stored: d.a.
 // Expects d_a in [0, 1]. Returns [0, 256].
-// models/callisto.lobe:205
+// models/callisto.lobe:224
 float unpack_retroreflection(float d_a)
 {
     float d_a_code = floor(d_a * 255.0 + 0.5);
@@ -204,7 +204,7 @@ float unpack_retroreflection(float d_a)
 
 // retroreflection_falloff as it was stored: bits 0..3 of d.g, bits 6..7 of d.b.
 // Expects d_g in [0, 1], d_b in [0, 1]. Returns [0, 1].
-// models/callisto.lobe:203
+// models/callisto.lobe:222
 float unpack_retroreflection_falloff(float d_g, float d_b)
 {
     float d_g_code = floor(d_g * 255.0 + 0.5);
@@ -215,7 +215,7 @@ float unpack_retroreflection_falloff(float d_g, float d_b)
 
 // smooth_terminator as it was stored: bits 0..5 of d.b.
 // Expects d_b in [0, 1]. Returns [-1, 1].
-// models/callisto.lobe:204
+// models/callisto.lobe:223
 float unpack_smooth_terminator(float d_b)
 {
     float d_b_code = floor(d_b * 255.0 + 0.5);

@@ -64,13 +64,39 @@ float D_GGX(float alpha, float NxH2)
     return alpha2 / (3.1415927 * (t0 * t0));
 }
 
+// GGX scaled by pi and kept below 2048, for half-precision pipelines that leave out 1/pi. Equals
+// min(pi * D_GGX, 2048).
+// Karis14: Karis 2014, Physically Based Shading on Mobile
+// = let n = g.cos_h * alpha; let p = alpha / (1 - g.cos_h^2 + n^2); min(p^2, 2048)
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
+// Expects alpha in [0.000244140625, 1]. Returns [0, 2048].
+// models/microfacet.lobe:69
+float D_GGX_mobile(float alpha, float NxH2)
+{
+    float alpha2 = alpha * alpha;
+    float p = alpha / (alpha2 + (1.0 - alpha2) * NxH2);
+    return min(p * p, 2048.0);
+}
+
+// Kept below 2048 / pi, which half precision can hold: the peak is lower for an alpha below
+// 0.0221. Elsewhere the same.
+// Karis14: Karis 2014, Physically Based Shading on Mobile
+// = D_GGX_mobile(alpha, g) / pi
+// NxH2 is |n x h|^2, which is 1 - cos_h^2.
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:51
+float D_GGX_clamped(float alpha, float NxH2)
+{
+    return D_GGX_mobile(alpha, NxH2) / 3.1415927;
+}
+
 // GGX stretched along the tangent frame; equals D_GGX for alpha_x = alpha_y.
 // Burley12: Burley 2012, Physically-Based Shading at Disney
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = let stretched = g.x_dot_h^2 / alpha_x^2 + g.y_dot_h^2 / alpha_y^2 + g.cos_h^2; 1 / (pi *
 // alpha_x * alpha_y) / stretched^2 else 0
 // Expects alpha_x in [0.000244140625, 1], alpha_y in [0.000244140625, 1].
-// models/microfacet.lobe:52
+// models/microfacet.lobe:56
 float D_GGX_anisotropic(float alpha_x, float alpha_y, float NoH, float XoH, float YoH)
 {
     float t0 = XoH * XoH / (alpha_x * alpha_x) + YoH * YoH / (alpha_y * alpha_y);
@@ -79,25 +105,11 @@ float D_GGX_anisotropic(float alpha_x, float alpha_y, float NoH, float XoH, floa
     return stretched2 == 0.0 ? 0.0 : 1.0 / (3.1415927 * alpha_x * alpha_y) / stretched2;
 }
 
-// GGX scaled by pi and kept below 2048, for half-precision pipelines that leave out 1/pi. Equals
-// min(pi * D_GGX, 2048).
-// Karis14: Karis 2014, Physically Based Shading on Mobile
-// = let n = g.cos_h * alpha; let p = alpha / (1 - g.cos_h^2 + n^2); min(p^2, 2048)
-// NxH2 is |n x h|^2, which is 1 - cos_h^2.
-// Expects alpha in [0.000244140625, 1]. Returns [0, 2048].
-// models/microfacet.lobe:65
-float D_GGX_mobile(float alpha, float NxH2)
-{
-    float alpha2 = alpha * alpha;
-    float p = alpha / (alpha2 + (1.0 - alpha2) * NxH2);
-    return min(p * p, 2048.0);
-}
-
 // No shadowing beyond the cosines: V is 1/4.
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = g.cos_i * g.cos_o
 // Returns [0, 1].
-// models/microfacet.lobe:75
+// models/microfacet.lobe:79
 float G_Implicit(float NoL, float NoV)
 {
     return NoL * NoV;
@@ -107,7 +119,7 @@ float G_Implicit(float NoL, float NoV)
 // Neumann99: Neumann et al. 1999, Compact Metallic Reflectance Models
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = g.cos_i * g.cos_o / max(g.cos_i, g.cos_o) else 0
-// models/microfacet.lobe:80
+// models/microfacet.lobe:84
 float G_Neumann(float NoL, float NoV)
 {
     float t0 = max(NoL, NoV);
@@ -120,7 +132,7 @@ float G_Neumann(float NoL, float NoV)
 // = let masked = 2 * g.cos_h * g.cos_o / g.cos_d else 2; let shadowed = 2 * g.cos_h * g.cos_i /
 // g.cos_d else 2; min(1, min(masked, shadowed))
 // Returns [0, 1].
-// models/microfacet.lobe:88
+// models/microfacet.lobe:92
 float G_CookTorrance(float NoL, float NoV, float NoH, float VoH)
 {
     float t0 = 2.0 * NoH;
@@ -136,7 +148,7 @@ float G_CookTorrance(float NoL, float NoV, float NoH, float VoH)
 // with Importance Sampling
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = g.cos_i * g.cos_o / g.cos_d^2 else 1
-// models/microfacet.lobe:100
+// models/microfacet.lobe:104
 float G_Kelemen(float NoL, float NoV, float VoH)
 {
     float VoH2 = VoH * VoH;
@@ -149,7 +161,7 @@ float G_Kelemen(float NoL, float NoV, float VoH)
 // = let c = cos_theta / (alpha * sqrt(1 - cos_theta^2)) else 1.6; if c < 1.6 then (3.535 * c +
 // 2.181 * c^2) / (1 + 2.276 * c + 2.577 * c^2) else 1
 // Expects alpha in [0.000244140625, 1], cos_theta in [0, 1].
-// models/microfacet.lobe:108
+// models/microfacet.lobe:112
 float G1_SmithBeckmann(float alpha, float cos_theta)
 {
     float t0 = alpha * sqrt((1.0 - cos_theta) * (1.0 + cos_theta));
@@ -162,7 +174,7 @@ float G1_SmithBeckmann(float alpha, float cos_theta)
 // Walter07 eq 23: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = G1_SmithBeckmann(alpha, g.cos_i) * G1_SmithBeckmann(alpha, g.cos_o)
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:116
+// models/microfacet.lobe:120
 float G_SmithBeckmann(float alpha, float NoL, float NoV)
 {
     return G1_SmithBeckmann(alpha, NoL) * G1_SmithBeckmann(alpha, NoV);
@@ -172,7 +184,7 @@ float G_SmithBeckmann(float alpha, float NoL, float NoV)
 // Walter07 eq 34: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = 2 * cos_theta / (cos_theta + sqrt(alpha^2 + (1 - alpha^2) * cos_theta^2))
 // Expects alpha in [0.000244140625, 1], cos_theta in [0, 1].
-// models/microfacet.lobe:121
+// models/microfacet.lobe:125
 float G1_SmithGGX(float alpha, float cos_theta)
 {
     float alpha2 = alpha * alpha;
@@ -184,7 +196,7 @@ float G1_SmithGGX(float alpha, float cos_theta)
 // Walter07 eq 23: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = G1_SmithGGX(alpha, g.cos_i) * G1_SmithGGX(alpha, g.cos_o)
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:126
+// models/microfacet.lobe:130
 float G_SmithGGX(float alpha, float NoL, float NoV)
 {
     return G1_SmithGGX(alpha, NoL) * G1_SmithGGX(alpha, NoV);
@@ -194,7 +206,7 @@ float G_SmithGGX(float alpha, float NoL, float NoV)
 // Schlick94 eq 19: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = cos_theta / (cos_theta * (1 - k) + k)
 // Expects k in [0.0001220703125, 1], cos_theta in [0, 1].
-// models/microfacet.lobe:131
+// models/microfacet.lobe:135
 float G1_Schlick(float k, float cos_theta)
 {
     return cos_theta / (cos_theta * (1.0 - k) + k);
@@ -204,7 +216,7 @@ float G1_Schlick(float k, float cos_theta)
 // Schlick94: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = alpha * sqrt(2/pi)
 // Expects alpha in [0.000244140625, 1]. Returns [0.0001220703125, 1].
-// models/microfacet.lobe:136
+// models/microfacet.lobe:140
 float k_SchlickBeckmann(float alpha)
 {
     return alpha * sqrt(2.0 / 3.1415927);
@@ -214,7 +226,7 @@ float k_SchlickBeckmann(float alpha)
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = alpha / 2
 // Expects alpha in [0.000244140625, 1]. Returns [0.0001220703125, 1].
-// models/microfacet.lobe:140
+// models/microfacet.lobe:144
 float k_SchlickGGX(float alpha)
 {
     return alpha / 2.0;
@@ -225,7 +237,7 @@ float k_SchlickGGX(float alpha)
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = (roughness + 1)^2 / 8
 // Expects roughness in [0.015625, 1]. Returns [0.0001220703125, 1].
-// models/microfacet.lobe:145
+// models/microfacet.lobe:149
 float k_SchlickGGX_analytic(float roughness)
 {
     float t0 = roughness + 1.0;
@@ -236,7 +248,7 @@ float k_SchlickGGX_analytic(float roughness)
 // Schlick94 eq 19: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = G1_Schlick(k_SchlickBeckmann(alpha), cos_theta)
 // Expects alpha in [0.000244140625, 1], cos_theta in [0, 1].
-// models/microfacet.lobe:150
+// models/microfacet.lobe:154
 float G1_SchlickBeckmann(float alpha, float cos_theta)
 {
     return G1_Schlick(k_SchlickBeckmann(alpha), cos_theta);
@@ -246,7 +258,7 @@ float G1_SchlickBeckmann(float alpha, float cos_theta)
 // Schlick94 eq 19: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = G1_SchlickBeckmann(alpha, g.cos_i) * G1_SchlickBeckmann(alpha, g.cos_o)
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:155
+// models/microfacet.lobe:159
 float G_SchlickBeckmann(float alpha, float NoL, float NoV)
 {
     return G1_SchlickBeckmann(alpha, NoL) * G1_SchlickBeckmann(alpha, NoV);
@@ -256,7 +268,7 @@ float G_SchlickBeckmann(float alpha, float NoL, float NoV)
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = G1_Schlick(k_SchlickGGX(alpha), cos_theta)
 // Expects alpha in [0.000244140625, 1], cos_theta in [0, 1].
-// models/microfacet.lobe:160
+// models/microfacet.lobe:164
 float G1_SchlickGGX(float alpha, float cos_theta)
 {
     return G1_Schlick(k_SchlickGGX(alpha), cos_theta);
@@ -266,7 +278,7 @@ float G1_SchlickGGX(float alpha, float cos_theta)
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = G1_SchlickGGX(alpha, g.cos_i) * G1_SchlickGGX(alpha, g.cos_o)
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:165
+// models/microfacet.lobe:169
 float G_SchlickGGX(float alpha, float NoL, float NoV)
 {
     return G1_SchlickGGX(alpha, NoL) * G1_SchlickGGX(alpha, NoV);
@@ -276,7 +288,7 @@ float G_SchlickGGX(float alpha, float NoL, float NoV)
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = G1_Schlick(k_SchlickGGX_analytic(roughness), cos_theta)
 // Expects roughness in [0.015625, 1], cos_theta in [0, 1].
-// models/microfacet.lobe:170
+// models/microfacet.lobe:174
 float G1_SchlickGGX_analytic(float roughness, float cos_theta)
 {
     return G1_Schlick(k_SchlickGGX_analytic(roughness), cos_theta);
@@ -286,7 +298,7 @@ float G1_SchlickGGX_analytic(float roughness, float cos_theta)
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = G1_SchlickGGX_analytic(roughness, g.cos_i) * G1_SchlickGGX_analytic(roughness, g.cos_o)
 // Expects roughness in [0.015625, 1].
-// models/microfacet.lobe:175
+// models/microfacet.lobe:179
 float G_SchlickGGX_analytic(float roughness, float NoL, float NoV)
 {
     float G1 = G1_SchlickGGX_analytic(roughness, NoL);
@@ -298,7 +310,7 @@ float G_SchlickGGX_analytic(float roughness, float NoL, float NoV)
 // = let i = g.cos_i + sqrt(alpha^2 + (1 - alpha^2) * g.cos_i^2); let o = g.cos_o + sqrt(alpha^2 +
 // (1 - alpha^2) * g.cos_o^2); 1 / (i * o)
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:182
+// models/microfacet.lobe:186
 float V_SmithGGX(float alpha, float NoL, float NoV)
 {
     float alpha2 = alpha * alpha;
@@ -314,7 +326,7 @@ float V_SmithGGX(float alpha, float NoL, float NoV)
 // = let i = g.cos_o * sqrt(alpha^2 + (1 - alpha^2) * g.cos_i^2); let o = g.cos_i * sqrt(alpha^2 +
 // (1 - alpha^2) * g.cos_o^2); 0.5 / (i + o) else 0
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:190
+// models/microfacet.lobe:204
 float V_SmithGGXCorrelated(float alpha, float NoL, float NoV)
 {
     float alpha2 = alpha * alpha;
@@ -325,22 +337,106 @@ float V_SmithGGXCorrelated(float alpha, float NoL, float NoV)
     return t0 == 0.0 ? 0.0 : 0.5 / t0;
 }
 
+// Facets that l sees are likelier to be seen from v as well: never below the separable V. G is off
+// by up to 0.09.
+// Heitz14 eq 99: Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based
+// BRDFs
+// = V_SmithGGXCorrelated(alpha, g)
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:194
+float V_SmithGGX_correlated(float alpha, float NoL, float NoV)
+{
+    return V_SmithGGXCorrelated(alpha, NoL, NoV);
+}
+
 // The correlated V without square roots: exact at alpha = 0 and alpha = 1.
 // Hammon17: Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces
 // = 0.5 / lerp(2 * g.cos_i * g.cos_o, g.cos_i + g.cos_o, alpha) else 0
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:200
+// models/microfacet.lobe:224
 float V_SmithJointApprox(float alpha, float NoL, float NoV)
 {
     float t0 = mix(2.0 * NoL * NoV, NoL + NoV, alpha);
     return t0 == 0.0 ? 0.0 : 0.5 / t0;
 }
 
+// The correlated V without square roots. G is off by up to 0.23.
+// Hammon17: Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces
+// = V_SmithJointApprox(alpha, g)
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:197
+float V_SmithGGX_joint_approximation(float alpha, float NoL, float NoV)
+{
+    return V_SmithJointApprox(alpha, NoL, NoV);
+}
+
+// Schlick's masking and shadowing, fitted to GGX, with the microfacet denominator in it.
+// Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
+// = let k = k_SchlickGGX(alpha); 0.25 / (lerp(k, 1, g.cos_i) * lerp(k, 1, g.cos_o))
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:234
+float V_SchlickGGX(float alpha, float NoL, float NoV)
+{
+    float k = k_SchlickGGX(alpha);
+    return 0.25 / (mix(k, 1.0, NoL) * mix(k, 1.0, NoV));
+}
+
+// Without square roots and still separable: the same at alpha = 1. G is off by up to 0.27.
+// Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
+// = V_SchlickGGX(alpha, g)
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:200
+float V_SmithGGX_schlick(float alpha, float NoL, float NoV)
+{
+    return V_SchlickGGX(alpha, NoL, NoV);
+}
+
+// Masking and shadowing as if they were independent: never above the correlated V. G is off by up
+// to 0.09.
+// Karis13b: Karis 2013, Specular BRDF Reference
+// = V_SmithGGX(alpha, g)
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:214
+float V_SmithGGXCorrelated_separable(float alpha, float NoL, float NoV)
+{
+    return V_SmithGGX(alpha, NoL, NoV);
+}
+
+// Without square roots. G is off by up to 0.24.
+// Hammon17: Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces
+// = V_SmithJointApprox(alpha, g)
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:217
+float V_SmithGGXCorrelated_joint_approximation(float alpha, float NoL, float NoV)
+{
+    return V_SmithJointApprox(alpha, NoL, NoV);
+}
+
+// Without square roots, and separable. G is off by up to 0.27.
+// Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
+// = V_SchlickGGX(alpha, g)
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:220
+float V_SmithGGXCorrelated_schlick(float alpha, float NoL, float NoV)
+{
+    return V_SchlickGGX(alpha, NoL, NoV);
+}
+
+// Separable: a product of two factors. G is off by up to 0.09.
+// Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
+// = V_SchlickGGX(alpha, g)
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:230
+float V_SmithJointApprox_schlick(float alpha, float NoL, float NoV)
+{
+    return V_SchlickGGX(alpha, NoL, NoV);
+}
+
 // No change with the angle.
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = f0
 // Expects f0 in [0, 1].
-// models/microfacet.lobe:209
+// models/microfacet.lobe:243
 vec3 F_None(vec3 f0)
 {
     return f0;
@@ -350,7 +446,7 @@ vec3 F_None(vec3 f0)
 // Schlick94 eq 15: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
 // = f0 + (1 - f0) * (1 - cos_d)^5
 // Expects f0 in [0, 1], VoH in [0, 1].
-// models/microfacet.lobe:213
+// models/microfacet.lobe:247
 vec3 F_Schlick(vec3 f0, float VoH)
 {
     float one_minus_VoH = 1.0 - VoH;
@@ -362,7 +458,7 @@ vec3 F_Schlick(vec3 f0, float VoH)
 // Karis13 eq 5: Karis 2013, Real Shading in Unreal Engine 4
 // = f0 + (1 - f0) * 2^((-5.55473 * cos_d - 6.98316) * cos_d)
 // Expects f0 in [0, 1], VoH in [0, 1].
-// models/microfacet.lobe:216
+// models/microfacet.lobe:250
 vec3 F_Schlick_spherical_gaussian(vec3 f0, float VoH)
 {
     return f0 + (1.0 - f0) * exp2((-5.55473 * VoH - 6.98316) * VoH);
@@ -382,7 +478,7 @@ vec3 F_Schlick_spherical_gaussian(vec3 f0, float VoH)
 // else 0; let polarization = (sum * cos_d - contrast) / (difference * cos_d + contrast) else 1;
 // 0.5 * amplitude^2 * (1 + polarization^2)
 // Expects f0 in [0, 1], VoH in [0, 1].
-// models/microfacet.lobe:226
+// models/microfacet.lobe:260
 float F_dielectric(float f0, float VoH)
 {
     float s = sqrt(f0);
@@ -398,15 +494,58 @@ float F_dielectric(float f0, float VoH)
     return 0.5 * (amplitude * amplitude) * (1.0 + polarization * polarization);
 }
 
+// Off by up to 0.036 for the reflectance of glass, 0.04, and by 0.3 for 0.5. Without contrast, at
+// 0, it still mirrors at grazing.
+// Schlick94 eq 15: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
+// = f0 + (1 - f0) * (1 - cos_d)^5
+// Expects f0 in [0, 1], VoH in [0, 1].
+// models/microfacet.lobe:277
+float F_dielectric_schlick(float f0, float VoH)
+{
+    float one_minus_VoH = 1.0 - VoH;
+    float one_minus_VoH2 = one_minus_VoH * one_minus_VoH;
+    return f0 + (1.0 - f0) * (one_minus_VoH2 * one_minus_VoH2 * one_minus_VoH);
+}
+
+// Schlick's power as a spherical Gaussian. Off by up to 0.039 for a reflectance of 0.04.
+// Karis13 eq 5: Karis 2013, Real Shading in Unreal Engine 4
+// = f0 + (1 - f0) * 2^((-5.55473 * cos_d - 6.98316) * cos_d)
+// Expects f0 in [0, 1], VoH in [0, 1].
+// models/microfacet.lobe:280
+float F_dielectric_spherical_gaussian(float f0, float VoH)
+{
+    return f0 + (1.0 - f0) * exp2((-5.55473 * VoH - 6.98316) * VoH);
+}
+
 // The Fresnel equations per channel.
 // Cook82: Cook and Torrance 1982, A Reflectance Model for Computer Graphics
 // = color(F_dielectric(f0.r, cos_d), F_dielectric(f0.g, cos_d), F_dielectric(f0.b, cos_d))
 // Expects f0 in [0, 1], VoH in [0, 1].
-// models/microfacet.lobe:243
+// models/microfacet.lobe:284
 vec3 F_CookTorrance(vec3 f0, float VoH)
 {
     float F = F_dielectric(f0.r, VoH);
     return vec3(F, F_dielectric(f0.g, VoH), F_dielectric(f0.b, VoH));
+}
+
+// One power for the three channels.
+// Schlick94 eq 15: Schlick 1994, An Inexpensive BRDF Model for Physically-Based Rendering
+// = F_Schlick(f0, cos_d)
+// Expects f0 in [0, 1], VoH in [0, 1].
+// models/microfacet.lobe:288
+vec3 F_CookTorrance_schlick(vec3 f0, float VoH)
+{
+    return F_Schlick(f0, VoH);
+}
+
+// Schlick's power as a spherical Gaussian.
+// Karis13 eq 5: Karis 2013, Real Shading in Unreal Engine 4
+// = f0 + (1 - f0) * 2^((-5.55473 * cos_d - 6.98316) * cos_d)
+// Expects f0 in [0, 1], VoH in [0, 1].
+// models/microfacet.lobe:291
+vec3 F_CookTorrance_spherical_gaussian(vec3 f0, float VoH)
+{
+    return f0 + (1.0 - f0) * exp2((-5.55473 * VoH - 6.98316) * VoH);
 }
 
 // The same radiance in every direction.
@@ -414,7 +553,7 @@ vec3 F_CookTorrance(vec3 f0, float VoH)
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
 // Expects diffuse_color in [0, 1].
-// models/microfacet.lobe:251
+// models/microfacet.lobe:298
 vec3 Diffuse_Lambert(vec3 diffuse_color)
 {
     return diffuse_color / 3.1415927;
@@ -425,7 +564,7 @@ vec3 Diffuse_Lambert(vec3 diffuse_color)
 // = let at_grazing = 0.5 + 2 * roughness * g.cos_d^2; let lit = 1 + (at_grazing - 1) * (1 -
 // g.cos_i)^5; let seen = 1 + (at_grazing - 1) * (1 - g.cos_o)^5; diffuse_color / pi * lit * seen
 // Expects diffuse_color in [0, 1], roughness in [0.015625, 1].
-// models/microfacet.lobe:255
+// models/microfacet.lobe:302
 vec3 Diffuse_Burley(vec3 diffuse_color, float roughness, float NoL, float NoV, float VoH)
 {
     float at_grazing = 0.5 + 2.0 * roughness * (VoH * VoH);
@@ -439,6 +578,16 @@ vec3 Diffuse_Burley(vec3 diffuse_color, float roughness, float NoL, float NoV, f
     return diffuse_color / 3.1415927 * lit * seen;
 }
 
+// In place of factors that together lie between 1/4 and 25/4.
+// Lambert60: Lambert 1760, Photometria
+// = Diffuse_Lambert(diffuse_color)
+// Expects diffuse_color in [0, 1], roughness in [0.015625, 1].
+// models/microfacet.lobe:310
+vec3 Diffuse_Burley_lambert(vec3 diffuse_color, float roughness)
+{
+    return Diffuse_Lambert(diffuse_color);
+}
+
 // Oren and Nayar's qualitative model of rough Lambertian facets, sigma in radians.
 //
 // Algebraic, without the paper's angles: cos(phi_i - phi_o) sin(theta_i) sin(theta_o) is l.v -
@@ -448,7 +597,7 @@ vec3 Diffuse_Burley(vec3 diffuse_color, float roughness, float NoL, float NoV, f
 // ratio = max(g.v_dot_l - g.cos_i * g.cos_o, 0) / max(g.cos_i, g.cos_o) else 0; diffuse_color / pi
 // * (a + b * ratio)
 // Expects diffuse_color in [0, 1], sigma in [0, 1.5707963267948966].
-// models/microfacet.lobe:267
+// models/microfacet.lobe:317
 vec3 Diffuse_OrenNayar(vec3 diffuse_color, float sigma, float NoL, float NoV, float VoL)
 {
     float sigma2 = sigma * sigma;
@@ -457,6 +606,16 @@ vec3 Diffuse_OrenNayar(vec3 diffuse_color, float sigma, float NoL, float NoV, fl
     float t0 = max(NoL, NoV);
     float ratio = t0 == 0.0 ? 0.0 : max(VoL - NoL * NoV, 0.0) / t0;
     return diffuse_color / 3.1415927 * (a + b * ratio);
+}
+
+// Smooth facets: the same at sigma = 0.
+// Lambert60: Lambert 1760, Photometria
+// = Diffuse_Lambert(diffuse_color)
+// Expects diffuse_color in [0, 1], sigma in [0, 1.5707963267948966].
+// models/microfacet.lobe:327
+vec3 Diffuse_OrenNayar_lambert(vec3 diffuse_color, float sigma)
+{
+    return Diffuse_Lambert(diffuse_color);
 }
 
 #endif  // LOBE_MICROFACET_GLSL

@@ -56,7 +56,7 @@ vec3 F_Schlick_occluded(vec3 f0, float one_minus_cos_d)
 // = let n = g.cos_h * alpha; let p = alpha / (1 - g.cos_h^2 + n^2); min(p^2, 2048)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1]. Returns [0, 2048].
-// models/microfacet.lobe:65
+// models/microfacet.lobe:69
 float D_GGX_mobile(float alpha, float NxH2)
 {
     float alpha2 = alpha * alpha;
@@ -70,7 +70,7 @@ float D_GGX_mobile(float alpha, float NxH2)
 // = (0.25 * roughness + 0.25) * D_GGX_mobile(roughness^2, g)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects roughness in [0.015625, 1].
-// models/ue4.lobe:38
+// models/ue4.lobe:44
 float specular_mobile(float roughness, float NxH2)
 {
     return (0.25 * roughness + 0.25) * D_GGX_mobile(roughness * roughness, NxH2);
@@ -81,7 +81,7 @@ float specular_mobile(float roughness, float NxH2)
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = let x = 1 - roughness; min(x^2, 2^(-9.28 * cos_o)) * x + (0.0425 - 0.0275 * roughness)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/ue4.lobe:44
+// models/ue4.lobe:50
 float env_brdf_a004(float roughness, float NoV)
 {
     float x = 1.0 - roughness;
@@ -93,7 +93,7 @@ float env_brdf_a004(float roughness, float NoV)
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = -1.04 * env_brdf_a004(roughness, cos_o) + (1.04 - 0.572 * roughness)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/ue4.lobe:52
+// models/ue4.lobe:58
 float EnvBRDFApprox_scale(float roughness, float NoV)
 {
     return -1.04 * env_brdf_a004(roughness, NoV) + (1.04 - 0.572 * roughness);
@@ -104,7 +104,7 @@ float EnvBRDFApprox_scale(float roughness, float NoV)
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = 1.04 * env_brdf_a004(roughness, cos_o) + (0.022 * roughness - 0.04)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/ue4.lobe:58
+// models/ue4.lobe:64
 float EnvBRDFApprox_bias(float roughness, float NoV)
 {
     return 1.04 * env_brdf_a004(roughness, NoV) + (0.022 * roughness - 0.04);
@@ -115,7 +115,7 @@ float EnvBRDFApprox_bias(float roughness, float NoV)
 // = let scale = EnvBRDFApprox_scale(roughness, cos_o); let bias = EnvBRDFApprox_bias(roughness,
 // cos_o); f0 * scale + saturate(50 * f0.g) * bias
 // Expects f0 in [0, 1], roughness in [0.015625, 1], NoV in [0, 1].
-// models/ue4.lobe:63
+// models/ue4.lobe:69
 vec3 EnvBRDFApprox(vec3 f0, float roughness, float NoV)
 {
     float scale = EnvBRDFApprox_scale(roughness, NoV);
@@ -128,7 +128,7 @@ vec3 EnvBRDFApprox(vec3 f0, float roughness, float NoV)
 // Karis13 eq 1: Karis 2013, Real Shading in Unreal Engine 4
 // = diffuse_color / pi
 // Expects diffuse_color in [0, 1].
-// models/microfacet.lobe:251
+// models/microfacet.lobe:298
 vec3 Diffuse_Lambert(vec3 diffuse_color)
 {
     return diffuse_color / 3.1415927;
@@ -152,7 +152,7 @@ float D_GGX(float alpha, float NxH2)
 // Hammon17: Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces
 // = 0.5 / lerp(2 * g.cos_i * g.cos_o, g.cos_i + g.cos_o, alpha) else 0
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:200
+// models/microfacet.lobe:224
 float V_SmithJointApprox(float alpha, float NoL, float NoV)
 {
     float t0 = mix(2.0 * NoL * NoV, NoL + NoV, alpha);
@@ -162,7 +162,7 @@ float V_SmithJointApprox(float alpha, float NoL, float NoV)
 // Default lit: Lambert, GGX, the joint Smith approximation and the occluded Schlick term.
 // Karis13: Karis 2013, Real Shading in Unreal Engine 4
 // = Diffuse_Lambert(s.diffuse_color) * g.cos_i
-// models/ue4.lobe:74
+// models/ue4.lobe:80
 vec3 default_lit_diffuse(float NoL, vec3 diffuse_color)
 {
     return Diffuse_Lambert(diffuse_color) * NoL;
@@ -174,7 +174,7 @@ vec3 default_lit_diffuse(float NoL, vec3 diffuse_color)
 // g.cos_i
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
-// models/ue4.lobe:75
+// models/ue4.lobe:81
 vec3 default_lit_specular(float NoL, float NoV, float NxH2, float OneMinusVoH, float roughness,
     vec3 f0)
 {
@@ -186,7 +186,7 @@ vec3 default_lit_specular(float NoL, float NoV, float NxH2, float OneMinusVoH, f
 // Mobile: no 1/pi in either part, the light's color carries it; F0 is not changed by the angle.
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = DiffuseColor(s.base_color, s.metallic) * g.cos_i
-// models/ue4.lobe:82
+// models/ue4.lobe:88
 vec3 mobile_diffuse(float NoL, vec3 base_color, float metallic)
 {
     return DiffuseColor(base_color, metallic) * NoL;
@@ -197,7 +197,7 @@ vec3 mobile_diffuse(float NoL, vec3 base_color, float metallic)
 // = SpecularColor(s.base_color, s.metallic, s.specular) * specular_mobile(s.roughness, g) *
 // g.cos_i
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
-// models/ue4.lobe:83
+// models/ue4.lobe:89
 vec3 mobile_specular(float NoL, float NxH2, vec3 base_color, float metallic, float specular,
     float roughness)
 {
@@ -209,7 +209,7 @@ vec3 mobile_specular(float NoL, float NxH2, vec3 base_color, float metallic, flo
 // prefiltering has it.
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = EnvBRDFApprox(SpecularColor(s.base_color, s.metallic, s.specular), s.roughness, g.cos_o)
-// models/ue4.lobe:91
+// models/ue4.lobe:97
 vec3 mobile_environment_specular(float NoV, vec3 base_color, float metallic, float specular,
     float roughness)
 {
@@ -236,7 +236,7 @@ struct DefaultLitResult
 
 // Default lit: Lambert, GGX, the joint Smith approximation and the occluded Schlick term.
 // Karis13: Karis 2013, Real Shading in Unreal Engine 4
-// models/ue4.lobe:73
+// models/ue4.lobe:79
 // All vectors have length 1 and point away from the surface.
 DefaultLitResult default_lit(vec3 l, vec3 v, vec3 n, DefaultLitSurface surface)
 {
@@ -277,7 +277,7 @@ struct MobileResult
 
 // Mobile: no 1/pi in either part, the light's color carries it; F0 is not changed by the angle.
 // Karis14: Karis 2014, Physically Based Shading on Mobile
-// models/ue4.lobe:81
+// models/ue4.lobe:87
 // All vectors have length 1 and point away from the surface.
 MobileResult mobile(vec3 l, vec3 v, vec3 n, MobileSurface surface)
 {
@@ -314,7 +314,7 @@ struct MobileEnvironmentResult
 // Mobile, lit by a prefiltered environment: what its radiance is multiplied by. No cosine: the
 // prefiltering has it.
 // Karis14: Karis 2014, Physically Based Shading on Mobile
-// models/ue4.lobe:90
+// models/ue4.lobe:96
 // All vectors have length 1 and point away from the surface.
 MobileEnvironmentResult mobile_environment(vec3 l, vec3 v, vec3 n, MobileEnvironmentSurface surface)
 {
