@@ -1,5 +1,6 @@
 // `lobec`: arguments in, one command run, an exit code out.
 #include "cli/commands.h"
+#include "device/statistics.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,9 @@
 int main(int argc, char** argv)
 {
     using namespace lobe::cli;
+
+    // What `lobec cost` starts, one per chip.
+    if (const auto status = lobe::device::serve_statistics(argc, argv)) return *status;
 
     // A file that grows past a limit is an error to report, like a full disk, not a signal to die
     // of.

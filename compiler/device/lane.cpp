@@ -5,101 +5,49 @@
 #include <limits>
 
 namespace lobe::device {
+
 std::shared_ptr<Lane> Lane::open(const PhysicalDevice& physical, bool always_stage,
                                  std::string& why)
 {
-    constexpr float priority = 1.0F;
-    VkDeviceQueueCreateInfo queue{};
-    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue.queueFamilyIndex = physical.queue_family;
-    queue.queueCount = 1;
-    queue.pQueuePriorities = &priority;
-
-    VkPhysicalDevice16BitStorageFeatures storage{};
-    storage.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_16BIT_STORAGE_FEATURES;
-    storage.storageBuffer16BitAccess = VK_TRUE;
-    VkPhysicalDeviceShaderFloat16Int8Features arithmetic{};
-    arithmetic.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES;
-    arithmetic.pNext = &storage;
-    arithmetic.shaderFloat16 = VK_TRUE;
-    const char* const extension = VK_KHR_SHADER_FLOAT16_INT8_EXTENSION_NAME;
-
-    VkDeviceCreateInfo create{};
-    create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    create.queueCreateInfoCount = 1;
-    create.pQueueCreateInfos = &queue;
-    if (physical.facts.float16) {
-        create.pNext = &arithmetic;
-        create.enabledExtensionCount = physical.float16_by_extension ? 1 : 0;
-        create.ppEnabledExtensionNames = &extension;
-    }
-    VkDevice device = VK_NULL_HANDLE;
-    const VkResult result = vkCreateDevice(physical.handle, &create, nullptr, &device);
-    if (auto failure = failure_of("vkCreateDevice", result)) {
+    OwnedDevice device;
+    if (auto failure = make_device(physical, false, device)) {
         why = std::move(*failure);
         return nullptr;
     }
-    std::shared_ptr<Lane> lane{new Lane{physical, device}};
-    lane->input_ = Channel{device, physical.memory, always_stage};
-    lane->output_ = Channel{device, physical.memory, always_stage};
-    Failure failure = lane->prepare_descriptors();
+    const VkDevice handle = device.handle;
+    std::shared_ptr<Lane> lane{new Lane{physical, std::move(device)}};
+    lane->input_ = Channel{handle, physical.memory, always_stage};
+    lane->output_ = Channel{handle, physical.memory, always_stage};
+    Failure failure = make_layouts(handle, lane->layouts_);
+    if (!failure) failure = lane->prepare_descriptors();
     if (!failure) failure = lane->prepare_commands(physical.queue_family);
     if (!failure) return lane;
     why = std::move(*failure);
     return nullptr;
 }
 
-Lane::Lane(const PhysicalDevice& physical, VkDevice device) : device_{device}
+Lane::Lane(const PhysicalDevice& physical, OwnedDevice device) : device_{std::move(device)}
 {
-    vkGetDeviceQueue(device, physical.queue_family, 0, &queue_);
+    vkGetDeviceQueue(device_.handle, physical.queue_family, 0, &queue_);
 }
 
 Failure Lane::prepare_descriptors()
 {
     const VkDevice device = device_.handle;
-    std::array<VkDescriptorSetLayoutBinding, 2> bindings{};
-    for (std::uint32_t i = 0; i < bindings.size(); ++i) {
-        bindings[i].binding = i;
-        bindings[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        bindings[i].descriptorCount = 1;
-        bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
-    }
-    VkDescriptorSetLayoutCreateInfo set{};
-    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    set.bindingCount = bindings.size();
-    set.pBindings = bindings.data();
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    VkResult result = vkCreateDescriptorSetLayout(device, &set, nullptr, &set_layout);
-    if (auto failure = failure_of("vkCreateDescriptorSetLayout", result)) return failure;
-    set_layout_ = {device, set_layout};
-
-    VkPushConstantRange push{};
-    push.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
-    push.size = sizeof(std::uint32_t);
-    VkPipelineLayoutCreateInfo layout{};
-    layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    layout.setLayoutCount = 1;
-    layout.pSetLayouts = &set_layout;
-    layout.pushConstantRangeCount = 1;
-    layout.pPushConstantRanges = &push;
-    VkPipelineLayout pipeline_layout = VK_NULL_HANDLE;
-    result = vkCreatePipelineLayout(device, &layout, nullptr, &pipeline_layout);
-    if (auto failure = failure_of("vkCreatePipelineLayout", result)) return failure;
-    pipeline_layout_ = {device, pipeline_layout};
-
     VkDescriptorPoolSize size{};
     size.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    size.descriptorCount = bindings.size();
+    size.descriptorCount = 2;
     VkDescriptorPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = 1;
     pool.poolSizeCount = 1;
     pool.pPoolSizes = &size;
     VkDescriptorPool descriptors = VK_NULL_HANDLE;
-    result = vkCreateDescriptorPool(device, &pool, nullptr, &descriptors);
+    VkResult result = vkCreateDescriptorPool(device, &pool, nullptr, &descriptors);
     if (auto failure = failure_of("vkCreateDescriptorPool", result)) return failure;
     descriptors_ = {device, descriptors};
 
+    const VkDescriptorSetLayout set_layout = layouts_.set.get();
     VkDescriptorSetAllocateInfo sets{};
     sets.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     sets.descriptorPool = descriptors;
@@ -140,29 +88,7 @@ Failure Lane::prepare_commands(std::uint32_t queue_family)
 
 Failure Lane::load(std::span<const std::uint32_t> spirv, std::string_view entry)
 {
-    const VkDevice device = device_.handle;
-    VkShaderModuleCreateInfo create{};
-    create.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    create.codeSize = spirv.size_bytes();
-    create.pCode = spirv.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    VkResult result = vkCreateShaderModule(device, &create, nullptr, &module);
-    if (auto failure = failure_of("vkCreateShaderModule", result)) return failure;
-    const OwnedShader shader{device, module};
-
-    const std::string entry_name{entry};
-    VkComputePipelineCreateInfo compute{};
-    compute.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    compute.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    compute.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    compute.stage.module = module;
-    compute.stage.pName = entry_name.c_str();
-    compute.layout = pipeline_layout_.get();
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    result = vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &compute, nullptr, &pipeline);
-    if (auto failure = failure_of("vkCreateComputePipelines", result)) return failure;
-    pipeline_ = {device, pipeline};
-    return std::nullopt;
+    return make_pipeline(device_.handle, layouts_, spirv, entry, 0, pipeline_);
 }
 
 Failure Lane::upload(std::span<const float> input, std::span<const float> output)
@@ -219,9 +145,9 @@ Failure Lane::record(std::uint32_t groups, std::uint32_t count)
     output_.record_upload(commands_);
     wait(copy, VK_ACCESS_TRANSFER_WRITE_BIT, compute, shader_access);
     vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout_.get(), 0, 1,
-                            &set_, 0, nullptr);
-    vkCmdPushConstants(commands_, pipeline_layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.pipeline.get(), 0,
+                            1, &set_, 0, nullptr);
+    vkCmdPushConstants(commands_, layouts_.pipeline.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        sizeof count, &count);
     vkCmdDispatch(commands_, groups, 1, 1);
     wait(compute, VK_ACCESS_SHADER_WRITE_BIT, copy | host,

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "device/channel.h"
-#include "device/physical.h"
+#include "device/shader.h"
 
 #include <memory>
 #include <span>
@@ -32,21 +32,16 @@ public:
     void download(std::span<float> output) const;
 
 private:
-    Lane(const PhysicalDevice& physical, VkDevice device);
+    Lane(const PhysicalDevice& physical, OwnedDevice device);
     Failure prepare_descriptors();
     Failure prepare_commands(std::uint32_t queue_family);
     void point_descriptors_at_buffers();
     Failure record(std::uint32_t groups, std::uint32_t count);
 
     // In order of creation: the members that come after the device's handle are destroyed first.
-    struct OwnedDevice {
-        VkDevice handle;
-        ~OwnedDevice() { vkDestroyDevice(handle, nullptr); }
-    };
     OwnedDevice device_;
     VkQueue queue_ = VK_NULL_HANDLE;
-    OwnedSetLayout set_layout_;
-    OwnedPipelineLayout pipeline_layout_;
+    Layouts layouts_;
     OwnedDescriptorPool descriptors_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     OwnedCommandPool command_pool_;
