@@ -1,4 +1,5 @@
-// JUnit XML, as continuous integration reads it: a suite per module and target, a case per row.
+// A verification as JUnit cases: a suite per module and target, a case per row.
+#include "report/junit_suite.h"
 #include "report/verification.h"
 
 #include <fmt/format.h>
@@ -8,35 +9,9 @@
 namespace lobe::report {
 namespace {
 
-/// Text that may stand in XML, between tags or quotes. Control characters cannot; they become
-/// spaces.
-std::string escaped(std::string_view text)
+JunitCase case_of(const analyze::Row& row, const analyze::Verification& verification)
 {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-        case '<': out += "&lt;"; break;
-        case '>': out += "&gt;"; break;
-        case '&': out += "&amp;"; break;
-        case '"': out += "&quot;"; break;
-        case '\n': out += "&#10;"; break;
-        default: out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return out;
-}
-
-struct Case {
-    std::string name;
-    std::string failure;  ///< empty: it passed
-    std::string details;
-    std::string skipped;  ///< empty: it ran
-    double seconds = 0;
-};
-
-Case case_of(const analyze::Row& row, const analyze::Verification& verification)
-{
-    Case out;
+    JunitCase out;
     out.name = fmt::format("{} {}", row.term, name(row.precision));
     out.seconds = row.judge_seconds + row.run_seconds;
     if (!row.ok()) {
@@ -56,9 +31,9 @@ Case case_of(const analyze::Row& row, const analyze::Verification& verification)
     return out;
 }
 
-Case case_of(const analyze::RoundTrip& trip, const analyze::Verification& verification)
+JunitCase case_of(const analyze::RoundTrip& trip, const analyze::Verification& verification)
 {
-    Case out;
+    JunitCase out;
     out.name = fmt::format("{} round trip", trip.packing);
     if (!trip.ok()) {
         out.failure =
@@ -78,9 +53,9 @@ Case case_of(const analyze::RoundTrip& trip, const analyze::Verification& verifi
     return out;
 }
 
-Case case_of(const std::string& artifact, const std::vector<analyze::Judgement>& judgements)
+JunitCase case_of(const std::string& artifact, const std::vector<analyze::Judgement>& judgements)
 {
-    Case out;
+    JunitCase out;
     out.name = artifact;
     for (const analyze::Judgement& judgement : judgements) {
         if (judgement.artifact != artifact || judgement.accepted) continue;
@@ -90,37 +65,11 @@ Case case_of(const std::string& artifact, const std::vector<analyze::Judgement>&
     return out;
 }
 
-std::string write(const std::string& suite, const std::vector<Case>& cases, bool with_times)
-{
-    const auto count = [&cases](std::string Case::*member) {
-        return std::ranges::count_if(cases,
-                                     [member](const Case& c) { return !(c.*member).empty(); });
-    };
-    std::string out = fmt::format(
-        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n",
-        escaped(suite), cases.size(), count(&Case::failure), count(&Case::skipped));
-    for (const Case& c : cases) {
-        out += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", escaped(suite),
-                           escaped(c.name));
-        if (with_times) out += fmt::format(" time=\"{:.3f}\"", c.seconds);
-        if (!c.failure.empty())
-            out += fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
-                               escaped(c.failure), escaped(c.details));
-        else if (!c.skipped.empty())
-            out += fmt::format(">\n      <skipped message=\"{}\"/>\n    </testcase>\n",
-                               escaped(c.skipped));
-        else
-            out += "/>\n";
-    }
-    return out + "  </testsuite>\n";
-}
-
 }  // namespace
 
 std::string to_junit(Verifications verifications, bool with_times)
 {
-    std::string out =
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"lobec verify\">\n";
+    std::vector<JunitSuite> suites;
     for (const analyze::Verification& verification : verifications) {
         std::vector<std::string> targets;
         const auto know = [&targets](const std::string& target) {
@@ -130,7 +79,7 @@ std::string to_junit(Verifications verifications, bool with_times)
         for (const analyze::Row& row : verification.rows) know(row.target);
         for (const analyze::RoundTrip& trip : verification.round_trips) know(trip.target);
         for (const std::string& target : targets) {
-            std::vector<Case> cases;
+            std::vector<JunitCase> cases;
             std::string last;
             for (const analyze::Judgement& judgement : verification.judgements) {
                 if (judgement.target != target || judgement.artifact == last) continue;
@@ -141,10 +90,10 @@ std::string to_junit(Verifications verifications, bool with_times)
                 if (row.target == target) cases.push_back(case_of(row, verification));
             for (const analyze::RoundTrip& trip : verification.round_trips)
                 if (trip.target == target) cases.push_back(case_of(trip, verification));
-            out += write(verification.module + "." + target, cases, with_times);
+            suites.push_back({verification.module + "." + target, std::move(cases)});
         }
     }
-    return out + "</testsuites>\n";
+    return to_junit("lobec verify", suites, with_times);
 }
 
 }  // namespace lobe::report
