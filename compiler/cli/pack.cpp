@@ -3,7 +3,7 @@
 #include "cli/pack.h"
 
 #include "cli/commands.h"
-#include "cli/files.h"
+#include "cli/outputs.h"
 #include "report/packing.h"
 
 #include <fmt/format.h>
@@ -27,11 +27,14 @@ struct Pack {
     unsigned jobs = 0;
 
     analyze::RadianceOptions radiance() const { return {points, jobs}; }
+    std::vector<Output> outputs() const
+    {
+        return {{"--json", json}, {"--svg", svg}, {"--html", html}};
+    }
 
     int run(const Terminal& terminal) const
     {
-        if ((json == "-") + (svg == "-") + (html == "-") > 1)
-            return fail(terminal, "only one of --json, --svg and --html can be standard output");
+        if (const std::string why = conflict(outputs()); !why.empty()) return fail(terminal, why);
         if (!suggest && request.is_set())
             return fail(terminal,
                         fmt::format("{} only says something to --suggest", request.first_option()));
@@ -130,24 +133,16 @@ struct Pack {
     /// On the terminal, and into the files that were asked for.
     int show(const Terminal& terminal, std::span<const report::Packed> reports) const
     {
-        std::vector<OutputFile> files;
-        const auto add = [&](const std::string& path, const auto& text) {
-            if (path == "-")
-                fmt::print("{}", text(reports));
-            else if (!path.empty())
-                files.push_back({path, text(reports)});
-        };
-        add(json, report::to_json);
-        add(svg, report::to_svg);
-        add(html, report::to_page);
-        const bool is_piped = json == "-" || svg == "-" || html == "-";
-        if (!is_piped && !terminal.quiet) {
+        std::vector<Output> written = outputs();
+        written[0].text = report::to_json(reports);
+        written[1].text = report::to_svg(reports);
+        written[2].text = report::to_page(reports);
+        if (!is_piped(written) && !terminal.quiet) {
             const report::Look look{terminal.color_on_stdout(), terminal.width()};
             for (std::size_t i = 0; i < reports.size(); ++i)
                 fmt::print("{}{}", i > 0 ? "\n" : "", report::to_text(reports[i], look));
         }
-        const Written written = write_files(files);
-        return written.why.empty() ? success : fail(terminal, written.why);
+        return write(terminal, written, success);
     }
 
     int no_packing(const Terminal& terminal, const Program& program,
