@@ -15,6 +15,16 @@ enum class Color {
     black
 };
 
+/// The forms of a term, in their order.
+std::vector<std::size_t> forms_of(const Program& program, std::size_t term)
+{
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < program.callables.size(); ++i)
+        if (program.callables[i].form && program.callables[i].term_index == term)
+            result.push_back(i);
+    return result;
+}
+
 class Ordering {
 public:
     Ordering(const Program& program, Diagnostics& diagnostics)
@@ -35,10 +45,10 @@ public:
                 path_.pop_back();
                 continue;
             }
-            const Reference callee = step.callees[step.next++];
+            const Callee callee = step.callees[step.next++];
             if (colors_[callee.callable] == Color::white)
                 enter(callee.callable);
-            else if (colors_[callee.callable] == Color::gray)
+            else if (colors_[callee.callable] == Color::gray && !callee.is_alternative)
                 report_cycle(callee.callable);
         }
     }
@@ -46,9 +56,15 @@ public:
     std::vector<std::size_t> take() { return std::move(order_); }
 
 private:
+    /// What has to come first, or would better: a form of what is called.
+    struct Callee {
+        std::size_t callable = 0;
+        Span span;
+        bool is_alternative = false;
+    };
     struct Step {
         std::size_t callable = 0;
-        std::vector<Reference> callees;
+        std::vector<Callee> callees;
         std::size_t next = 0;  ///< the callee to enter next; the one before it is being visited
     };
 
@@ -58,16 +74,19 @@ private:
         path_.push_back({index, callees_of(index), 0});
     }
 
-    std::vector<Reference> callees_of(std::size_t index) const
+    std::vector<Callee> callees_of(std::size_t index) const
     {
         const Callable& callable = program_.callables[index];
         const File& file = *program_.files[callable.file];
         const syntax::Body& body = callable.form ? callable.form->body : callable.term->body;
-        std::vector<Reference> result;
+        std::vector<Callee> result;
         if (callable.form) result.push_back({callable.term_index, callable.span});
         const auto add = [&](syntax::ExpressionId root) {
-            const auto found = references(program_, file, root);
-            result.insert(result.end(), found.begin(), found.end());
+            for (const Reference& called : references(program_, file, root)) {
+                result.push_back({called.callable, called.span});
+                for (const std::size_t form : forms_of(program_, called.callable))
+                    result.push_back({form, called.span, true});
+            }
         };
         for (const syntax::Let& let : body.lets) add(let.value);
         add(body.value);
@@ -81,7 +100,7 @@ private:
         std::vector<Label> calls;
         for (auto step = first; step != path_.end(); ++step) {
             cyclic_[step->callable] = true;
-            const Reference& call = step->callees[step->next - 1];
+            const Callee& call = step->callees[step->next - 1];
             const std::string& caller = program_.callables[step->callable].name;
             const std::string& called = program_.callables[call.callable].name;
             if (chain.empty()) chain = fmt::format("`{}`", caller);
@@ -115,8 +134,17 @@ std::vector<Reference> references(const Program& program, const File& file,
                                   syntax::ExpressionId root)
 {
     std::vector<Reference> result;
-    for (const Visit& visit : walk(file.tree, root).visits) {
-        const auto* call = std::get_if<syntax::Call>(&file.tree[visit.id].node);
+    std::vector<Visit> visits = walk(file.tree, root).visits;
+    const auto visit_also = [&](syntax::ExpressionId id) {
+        const std::vector<Visit> below = walk(file.tree, id).visits;
+        visits.insert(visits.end(), below.begin(), below.end());
+    };
+    for (std::size_t i = 0; i < visits.size(); ++i) {
+        if (const auto* sum = std::get_if<syntax::Sum>(&file.tree[visits[i].id].node)) {
+            for (const syntax::Let& let : sum->body.lets) visit_also(let.value);
+            visit_also(sum->body.value);
+        }
+        const auto* call = std::get_if<syntax::Call>(&file.tree[visits[i].id].node);
         if (!call) continue;
         const auto found = file.names.find(call->callee.text);
         if (found != file.names.end() && found->second.kind == NameKind::callable &&
@@ -142,8 +170,11 @@ std::vector<std::size_t> lowering_order(const Program& program, Diagnostics& dia
         if (program.callables[i].file == root) ordering.visit(i);
 
     const auto visit = [&](const File& file, syntax::ExpressionId id) {
-        for (const Reference& reference : references(program, file, id))
+        for (const Reference& reference : references(program, file, id)) {
             ordering.visit(reference.callable);
+            for (const std::size_t form : forms_of(program, reference.callable))
+                ordering.visit(form);
+        }
     };
     for (const syntax::Item& item : program.files[root]->tree.items)
         if (const auto* effect = std::get_if<syntax::EffectItem>(&item.node))

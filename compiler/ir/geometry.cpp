@@ -109,6 +109,7 @@ ExprId expand(Graph& graph, GeometryField field, const Frame& frame)
     const auto one = [&] { return graph.literal("1"); };
     // A cosine of two unit vectors, which rounding may push past 1.
     const auto cosine = [&](ExprId a, ExprId b) {
+        if (frame.bare) return dot(a, b);
         return graph.apply(Op::clamp, {dot(a, b), graph.literal("-1"), one()});
     };
 
@@ -119,7 +120,8 @@ ExprId expand(Graph& graph, GeometryField field, const Frame& frame)
     case GeometryField::x: return frame.x;
     case GeometryField::y: return frame.y;
     case GeometryField::h:
-        return graph.apply(Op::guarded_normalize, {graph.apply(Op::add, {frame.l, frame.v})});
+        return graph.apply(frame.bare ? Op::normalize : Op::guarded_normalize,
+                           {graph.apply(Op::add, {frame.l, frame.v})});
     case GeometryField::cos_i: return saturate(dot(frame.n, frame.l));
     case GeometryField::cos_o: return saturate(dot(frame.n, frame.v));
     case GeometryField::cos_h: return saturate(dot(frame.n, field_of(GeometryField::h)));

@@ -84,6 +84,9 @@ std::optional<SurfaceField> find_surface_field(std::string_view name);
 struct Frame {
     ExprId l, v, n;
     ExprId x, y;  ///< the tangent frame; may be invalid when nothing needs it
+    /// As a port by hand computes fields: h is normalize(l + v), which l = -v makes undefined, and
+    /// cosines that no saturation holds are as they come. For comparison only.
+    bool bare = false;
 };
 
 /// The expression that computes a field from the vectors. Guarded: l = -v gives h = 0.

@@ -84,7 +84,8 @@ Module without_functions(const Module& module)
             .gbuffers = module.gbuffers,
             .packings = module.packings,
             .engines = module.engines,
-            .remarks = module.remarks};
+            .remarks = module.remarks,
+            .bare_geometry = module.bare_geometry};
 }
 
 Function without_body(const Function& function)
@@ -137,6 +138,7 @@ Function entry_point(const Module& module, FunctionId id)
             tangents |= needs_tangents(static_cast<GeometryField>(input.which));
         }
     Frame frame;
+    frame.bare = module.bare_geometry;
     if (geometry) {
         frame.l = add_vector(GeometryField::l);
         frame.v = add_vector(GeometryField::v);

@@ -1,6 +1,7 @@
 #include "optimize/legal.h"
 
 #include "evaluate/run.h"
+#include "optimize/guard.h"
 #include "optimize/literal.h"
 #include "optimize/rewrite.h"
 
@@ -22,7 +23,7 @@ public:
         : function_{function}, graph_{function.graph}, ranges_{evaluate::ranges(
                                                            module, function,
                                                            evaluate::declared_ranges(function))},
-          uses_{use_counts(graph_, function.result)}
+          uses_{use_counts(graph_, function.result)}, is_guarded_{guarded_divisions(function)}
     {
     }
 
@@ -59,7 +60,7 @@ private:
             if (is_not_zero(function_, operands[0], range(0))) return std::nullopt;
             return outside(0);
         case Op::divide:
-            if (range(1).low > 0 || range(1).high < 0 || is_guarded(id)) return std::nullopt;
+            if (range(1).low > 0 || range(1).high < 0 || is_guarded_[id]) return std::nullopt;
             return outside(1);
         case Op::square_root:
             if (range(0).low >= 0) return std::nullopt;
@@ -115,33 +116,11 @@ private:
         return std::nullopt;
     }
 
-    /// Every use of this division is the arm of a select that is not taken where its divisor is 0.
-    bool is_guarded(ExprId division) const
-    {
-        if (division == function_.result) return false;
-        const ExprId divisor = graph_.operands(division)[1];
-        const auto is_zero_test = [&](ExprId condition, Op op) {
-            if (graph_[condition].op != op) return false;
-            const auto sides = graph_.operands(condition);
-            return (sides[0] == divisor && graph_.is_literal(sides[1], 0)) ||
-                   (sides[1] == divisor && graph_.is_literal(sides[0], 0));
-        };
-        for (const ExprId user : graph_.ids()) {
-            if (uses_[user] == 0) continue;
-            const auto operands = graph_.operands(user);
-            for (std::size_t i = 0; i < operands.size(); ++i) {
-                if (operands[i] != division) continue;
-                if (graph_[user].op != Op::select || i == 0) return false;
-                if (!is_zero_test(operands[0], i == 2 ? Op::equal : Op::not_equal)) return false;
-            }
-        }
-        return true;
-    }
-
     const Function& function_;
     const Graph& graph_;
     Facts<Expr, Interval> ranges_;
     Facts<Expr, int> uses_;
+    Facts<Expr, bool> is_guarded_;
 };
 
 }  // namespace

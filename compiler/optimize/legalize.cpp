@@ -10,6 +10,7 @@
 // Over the real numbers nothing changes, except that an argument of log or inverse_square_root
 // below the smallest normal float counts as that float: there float has nothing better to say.
 #include "evaluate/run.h"
+#include "optimize/guard.h"
 #include "optimize/legal.h"
 #include "optimize/literal.h"
 #include "optimize/optimize.h"
@@ -99,7 +100,8 @@ bool has_domain(Op op)
     case Op::log:
     case Op::log2:
     case Op::arc_sine:
-    case Op::arc_cosine: return true;
+    case Op::arc_cosine:
+    case Op::divide: return true;
     default: return false;
     }
 }
@@ -107,8 +109,10 @@ bool has_domain(Op op)
 /// One expression and the ranges of its operands.
 class Guard {
 public:
-    Guard(Rebuild& rebuild, const Facts<Expr, Interval>& ranges, ExprId id)
-        : rebuild_{rebuild}, ranges_{ranges}, id_{id}, old_{rebuild.old().graph}
+    Guard(Rebuild& rebuild, const Facts<Expr, Interval>& ranges,
+          const Facts<Expr, bool>& guarded_divisions, ExprId id)
+        : rebuild_{rebuild}, ranges_{ranges},
+          guarded_divisions_{guarded_divisions}, id_{id}, old_{rebuild.old().graph}
     {
     }
 
@@ -125,6 +129,7 @@ public:
             return make(is_not_zero(rebuild_.old(), old_.operands(id_)[0], range(0))
                             ? Op::normalize
                             : Op::guarded_normalize);
+        case Op::divide: return divide();
         case Op::square_root: return range(0).low < 0 ? make(Op::square_root, at_least(0)) : copy();
         case Op::inverse_square_root:
         case Op::log:
@@ -151,6 +156,21 @@ private:
         return graph().apply(Op::maximum, {operand(0), graph().literal(low)});
     }
 
+    /// The checker proved that the divisor is not 0 over the real numbers, or a choice guards it.
+    /// What is left is a sum that rounding may bring to 0, or below.
+    ExprId divide()
+    {
+        const Interval& divisor = range(1);
+        if (divisor.low > 0 || divisor.high < 0 || guarded_divisions_[id_]) return copy();
+        const ExprId least = graph().literal(smallest_normal_float);
+        const Type type = old_[old_.operands(id_)[1]].type;
+        if (divisor.low >= 0 || type != Type::scalar)
+            return graph().apply(Op::divide,
+                                 {operand(0), graph().apply(Op::maximum, {operand(1), least})},
+                                 old_.span(id_));
+        return copy();
+    }
+
     ExprId power()
     {
         Interval base = range(0);
@@ -166,6 +186,7 @@ private:
 
     Rebuild& rebuild_;
     const Facts<Expr, Interval>& ranges_;
+    const Facts<Expr, bool>& guarded_divisions_;
     ExprId id_;
     const Graph& old_;
 };
@@ -176,8 +197,8 @@ Step place_guards(Rebuild& rebuild)
     if (!any_expression(old.graph, [&](ExprId id) { return has_domain(old.graph[id].op); }))
         return {};
     auto ranges = evaluate::ranges(rebuild.old_module(), old, evaluate::declared_ranges(old));
-    return [&rebuild, ranges = std::move(ranges)](ExprId id) {
-        return Guard{rebuild, ranges, id}.guarded();
+    return [&rebuild, ranges = std::move(ranges), divisions = guarded_divisions(old)](ExprId id) {
+        return Guard{rebuild, ranges, divisions, id}.guarded();
     };
 }
 

@@ -99,6 +99,35 @@ ExprId Rebuild::call(ExprId old_id)
     return graph.call(callee_id, callee.type(), operands, old().graph.span(old_id));
 }
 
+ExprId Rebuild::call_instead(ExprId old_call, FunctionId callee_id)
+{
+    const Function& before = old_module()[FunctionId{old().graph[old_call].aux}];
+    const Function& wanted = old_module()[callee_id];
+    const auto old_operands = old().graph.operands(old_call);
+    const auto operand_named = [&](const std::string& name) {
+        const auto found = std::ranges::find_if(before.inputs, [&](const Input& input) {
+            return input.origin == Origin::argument && input.name == name;
+        });
+        assert(found != before.inputs.end());
+        return old_operands[static_cast<std::size_t>(found - before.inputs.begin())];
+    };
+
+    const Function& callee = rebuilt(callee_id);
+    const auto& wires = (*wires_)[callee_id.index];
+    std::vector<ExprId> operands;
+    for (std::size_t i = 0; i < wires.size(); ++i) {
+        const bool gained = wires[i].kind == Wire::Kind::gained;
+        const Input& input = gained ? callee.inputs[i] : wanted.inputs[wires[i].index];
+        if (input.origin != Origin::argument)
+            operands.push_back(this->input(input.origin, input.which));
+        else if (wires[i].kind == Wire::Kind::complement)
+            operands.push_back(complement(operand_named(input.name)));
+        else
+            operands.push_back(moved(operand_named(input.name)));
+    }
+    return graph.call(callee_id, callee.type(), operands, old().graph.span(old_call));
+}
+
 ExprId Rebuild::input(Origin origin, std::uint32_t which)
 {
     const auto found = std::ranges::find_if(slots_, [&](const Slot& slot) {

@@ -52,6 +52,10 @@ public:
     /// The same expression over moved operands; calls are wired to what the callee is now.
     ir::ExprId copy(ir::ExprId old_id);
 
+    /// The same call, of another function that takes arguments of the same names. Its other inputs
+    /// are the caller's own, gained where it lacks them. The function comes before this one.
+    ir::ExprId call_instead(ir::ExprId old_call, ir::FunctionId callee);
+
     /// The input of this origin (not `argument`), added if the function lacks it.
     ir::ExprId input(ir::Origin origin, std::uint32_t which);
     ir::ExprId input(ir::GeometryField field);

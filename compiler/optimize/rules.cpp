@@ -119,6 +119,7 @@ private:
         if (one_minus(graph_, variable)) return Source::complement;
         if (expr.op != Op::input) return Source::factored;
         const Input& input = subject_.function->inputs[expr.aux];
+        if (subject_.inputs == Inputs::given) return Source::factored;
         if (input.origin == Origin::geometry) {
             const auto field = static_cast<GeometryField>(input.which);
             if (field == GeometryField::cos_h) return Source::cos_h;
@@ -233,9 +234,11 @@ private:
 
 std::span<const Rule> rules() { return rule_table; }
 
-Subject subject(const Module& module, const Function& function, std::vector<bool> complemented)
+Subject subject(const Module& module, const Function& function, std::vector<bool> complemented,
+                Inputs inputs)
 {
     Subject result;
+    result.inputs = inputs;
     result.function = &function;
     result.sums = expand_sums(function.graph);
     for (const ExprId id : function.graph.ids())

@@ -42,6 +42,13 @@ enum class Source : std::uint8_t {
     factored
 };
 
+/// Where a replacement may look: what the function has anyway, or also what its callers can make
+/// from the vectors, and companions of its arguments.
+enum class Inputs : std::uint8_t {
+    given,
+    from_vectors
+};
+
 /// One named rule.
 struct Rule {
     std::string_view name;
@@ -71,9 +78,10 @@ struct Subject {
     Facts<ir::Expr, Sum> sums;
     Facts<ir::Expr, evaluate::Interval> ranges;  ///< none where there is no sum of two or more
     std::vector<bool> complemented;  ///< by input: an argument whose complement is to be had
+    Inputs inputs{};
 };
 Subject subject(const ir::Module& module, const ir::Function& function,
-                std::vector<bool> complemented);
+                std::vector<bool> complemented, Inputs inputs = Inputs::from_vectors);
 
 /// The rule for every expression that one fits. A product of sums counts as a sum.
 using Matches = Facts<ir::Expr, std::optional<Match>>;

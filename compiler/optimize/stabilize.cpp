@@ -175,15 +175,24 @@ void report(const Rebuild& rebuild, const Matches& matches,
     log.insert(log.end(), found.rbegin(), found.rend());
 }
 
-Module stabilize_once(const Module& module, std::vector<Application>& log)
+/// Per function and input: none is to be had.
+Complements no_complements(const Module& module)
 {
-    const Complements complements = find_complements(module);
+    Complements result;
+    for (const Function& function : module.functions) result.emplace_back(function.inputs.size());
+    return result;
+}
+
+Module stabilize_once(const Module& module, std::vector<Application>& log, Inputs inputs)
+{
+    const Complements complements =
+        inputs == Inputs::given ? no_complements(module) : find_complements(module);
     return rewrite(module, [&](Rebuild& rebuild) -> Step {
         const std::vector<bool>& complemented = complements[rebuild.id().index];
         rebuild.complement = [&rebuild, &complemented](ExprId operand) {
             return complement_operand(rebuild, complemented, operand);
         };
-        auto found = subject(rebuild.old_module(), rebuild.old(), complemented);
+        auto found = subject(rebuild.old_module(), rebuild.old(), complemented, inputs);
         auto matches = match_rules(found);
         const auto has_rule = [&](ExprId id) { return matches[id].has_value(); };
         if (!any_expression(rebuild.old().graph, has_rule)) return {};
@@ -205,14 +214,14 @@ Module stabilize_once(const Module& module, std::vector<Application>& log)
 
 }  // namespace
 
-Module stabilize(const Module& module, std::vector<Application>& log)
+Module stabilize(const Module& module, std::vector<Application>& log, Inputs inputs)
 {
     // What one round builds, the next may still improve: a factor 1 - a that was no expression
     // before. Every rule takes a cancellation away and adds none, so this ends.
     constexpr int most_rounds = 8;
     Module current = module;
     for (int round = 0; round < most_rounds; ++round) {
-        Module next = stabilize_once(current, log);
+        Module next = stabilize_once(current, log, inputs);
         if (same_graphs(current, next)) return next;
         current = std::move(next);
     }

@@ -15,7 +15,9 @@ struct Application {
     Span span;  ///< of the expression as written
 };
 
-/// As `stabilize` of optimize.h; appends what it did to `log`, functions in order.
-ir::Module stabilize(const ir::Module& module, std::vector<Application>& log);
+/// As `stabilize` of optimize.h; appends what it did to `log`, functions in order. With
+/// `Inputs::given` no function gains an input.
+ir::Module stabilize(const ir::Module& module, std::vector<Application>& log,
+                     Inputs inputs = Inputs::from_vectors);
 
 }  // namespace lobe::optimize

@@ -29,7 +29,7 @@ term unused(x: unit) -> unit = x * other
 
 }  // namespace
 
-TEST_CASE("an imported term brings along what it uses, and no more", "[check][modules]")
+TEST_CASE("an imported term brings along what it uses, with its forms, and no more", "[check][modules]")
 {
     const auto checked = check_text(R"(
 import lib { scaled }
@@ -41,7 +41,7 @@ term f(x: unit) -> float = scaled(x) * mine
     REQUIRE(checked.errors() == "");
     std::string names;
     for (const ir::Function& function : checked.module->functions) names += function.name + " ";
-    CHECK(names == "half scaled f ");
+    CHECK(names == "half half_doubled scaled f ");
     REQUIRE(checked.module->parameters.size() == 2);
     CHECK(checked.module->parameters[0].name == "gain");
     CHECK(checked.module->parameters[0].module == "lib");

@@ -335,18 +335,6 @@ float V_SmithGGXCorrelated(float alpha, float NoL, float NoV)
     return t0 == 0.0 ? 0.0 : 0.5 / t0;
 }
 
-// Facets that l sees are likelier to be seen from v as well: never below the separable V. G is off
-// by up to 0.09.
-// Heitz14 eq 99: Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based
-// BRDFs
-// = V_SmithGGXCorrelated(alpha, g)
-// Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:194
-float V_SmithGGX_correlated(float alpha, float NoL, float NoV)
-{
-    return V_SmithGGXCorrelated(alpha, NoL, NoV);
-}
-
 // The correlated V without square roots: exact at alpha = 0 and alpha = 1.
 // Hammon17: Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces
 // = 0.5 / lerp(2 * g.cos_i * g.cos_o, g.cos_i + g.cos_o, alpha) else 0
@@ -358,16 +346,6 @@ float V_SmithJointApprox(float alpha, float NoL, float NoV)
     return t0 == 0.0 ? 0.0 : 0.5 / t0;
 }
 
-// The correlated V without square roots. G is off by up to 0.23.
-// Hammon17: Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces
-// = V_SmithJointApprox(alpha, g)
-// Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:197
-float V_SmithGGX_joint_approximation(float alpha, float NoL, float NoV)
-{
-    return V_SmithJointApprox(alpha, NoL, NoV);
-}
-
 // Schlick's masking and shadowing, fitted to GGX, with the microfacet denominator in it.
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = let k = k_SchlickGGX(alpha); 0.25 / (lerp(k, 1, g.cos_i) * lerp(k, 1, g.cos_o))
@@ -377,6 +355,26 @@ float V_SchlickGGX(float alpha, float NoL, float NoV)
 {
     const float k = k_SchlickGGX(alpha);
     return 0.25 / (lerp(k, 1.0, NoL) * lerp(k, 1.0, NoV));
+}
+
+// Separable: a product of two factors. G is off by up to 0.09.
+// Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
+// = V_SchlickGGX(alpha, g)
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:230
+float V_SmithJointApprox_schlick(float alpha, float NoL, float NoV)
+{
+    return V_SchlickGGX(alpha, NoL, NoV);
+}
+
+// The correlated V without square roots. G is off by up to 0.23.
+// Hammon17: Hammon 2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces
+// = V_SmithJointApprox(alpha, g)
+// Expects alpha in [0.000244140625, 1].
+// models/microfacet.lobe:197
+float V_SmithGGX_joint_approximation(float alpha, float NoL, float NoV)
+{
+    return V_SmithJointApprox(alpha, NoL, NoV);
 }
 
 // Without square roots and still separable: the same at alpha = 1. G is off by up to 0.27.
@@ -420,14 +418,16 @@ float V_SmithGGXCorrelated_schlick(float alpha, float NoL, float NoV)
     return V_SchlickGGX(alpha, NoL, NoV);
 }
 
-// Separable: a product of two factors. G is off by up to 0.09.
-// Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
-// = V_SchlickGGX(alpha, g)
+// Facets that l sees are likelier to be seen from v as well: never below the separable V. G is off
+// by up to 0.09.
+// Heitz14 eq 99: Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based
+// BRDFs
+// = V_SmithGGXCorrelated(alpha, g)
 // Expects alpha in [0.000244140625, 1].
-// models/microfacet.lobe:230
-float V_SmithJointApprox_schlick(float alpha, float NoL, float NoV)
+// models/microfacet.lobe:194
+float V_SmithGGX_correlated(float alpha, float NoL, float NoV)
 {
-    return V_SchlickGGX(alpha, NoL, NoV);
+    return V_SmithGGXCorrelated(alpha, NoL, NoV);
 }
 
 // No change with the angle.

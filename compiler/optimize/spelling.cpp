@@ -1,0 +1,58 @@
+// The other spellings than the one that a build emits; see spelling.h.
+#include "optimize/spelling.h"
+
+#include "optimize/bare.h"
+#include "optimize/optimize.h"
+#include "optimize/stabilize.h"
+
+#include <array>
+#include <cassert>
+
+namespace lobe::optimize {
+
+using namespace ir;
+
+namespace {
+
+constexpr std::array all_spellings{Spelling::naive, Spelling::as_written, Spelling::factored,
+                                   Spelling::stable};
+
+/// `module` made legal, as the last steps of `optimize` do. `simple` is what it was made from.
+Module legal(const Module& simple, const Module& module)
+{
+    const Module clean = simplify_again(simple, module);
+    return simplify_again(clean, legalize(clean));
+}
+
+}  // namespace
+
+std::string_view name(Spelling spelling)
+{
+    switch (spelling) {
+    case Spelling::naive: return "naive";
+    case Spelling::as_written: return "as written";
+    case Spelling::factored: return "factored";
+    case Spelling::stable: return "stable";
+    }
+    return {};
+}
+
+std::span<const Spelling> spellings() { return all_spellings; }
+
+Module spell(const Module& checked, Spelling spelling)
+{
+    if (spelling == Spelling::stable) return optimize(checked);
+    const Module simple = simplify(checked);
+    switch (spelling) {
+    case Spelling::naive: return bare(simple);
+    case Spelling::factored: {
+        std::vector<Application> log;
+        return legal(simple, stabilize(simple, log, Inputs::given));
+    }
+    case Spelling::as_written:
+    case Spelling::stable: break;
+    }
+    return legal(simple, simple);
+}
+
+}  // namespace lobe::optimize
