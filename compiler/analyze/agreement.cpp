@@ -163,11 +163,19 @@ std::optional<std::string> execute(device::Device& device, const Reference& refe
 {
     assert(static_cast<std::size_t>(harness.inputs) == reference.points.columns.size());
     assert(static_cast<std::size_t>(harness.outputs) == reference.outputs.size());
+    return execute(device, reference.input, reference.points.size(), harness, spirv, results);
+}
+
+std::optional<std::string> execute(device::Device& device, std::span<const float> points,
+                                   std::size_t count, const emit::Harness& harness,
+                                   std::span<const std::uint32_t> spirv,
+                                   std::vector<float>& results)
+{
+    assert(static_cast<std::size_t>(harness.inputs) * count == points.size());
     // NaN where nothing is written: a shader that skips points is caught.
-    results.assign(reference.outputs.size() * reference.points.size(),
+    results.assign(count * static_cast<std::size_t>(harness.outputs),
                    std::numeric_limits<float>::quiet_NaN());
-    return device.run(spirv, harness.entry, reference.input, results,
-                      static_cast<std::uint32_t>(reference.points.size()));
+    return device.run(spirv, harness.entry, points, results, static_cast<std::uint32_t>(count));
 }
 
 }  // namespace lobe::analyze

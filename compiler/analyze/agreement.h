@@ -69,6 +69,12 @@ std::optional<std::string> execute(device::Device& device, const Reference& refe
                                    std::span<const std::uint32_t> spirv,
                                    std::vector<float>& results);
 
+/// The same over any `count` points, `interleaved`.
+std::optional<std::string> execute(device::Device& device, std::span<const float> points,
+                                   std::size_t count, const emit::Harness& harness,
+                                   std::span<const std::uint32_t> spirv,
+                                   std::vector<float>& results);
+
 /// The precision that emit speaks of, and the table that evaluate reads for it.
 evaluate::Precision table_of(emit::Precision precision);
 

@@ -61,6 +61,17 @@ Vector mirrored(const Vector& l, const Vector& h) { return 2 * dot(l, h) * h + -
 
 Vector Basis::operator()(double a, double b, double c) const { return a * x + (b * y + c * z); }
 
+const Vector& vector_of(const Directional& point, ir::GeometryField field)
+{
+    switch (field) {
+    case ir::GeometryField::l: return point.l;
+    case ir::GeometryField::v: return point.v;
+    case ir::GeometryField::x: return point.basis.x;
+    case ir::GeometryField::y: return point.basis.y;
+    default: return point.basis.z;  // an entry point has no other vector than n
+    }
+}
+
 Vector on_sphere(Random& random)
 {
     // By rejection, which needs no trigonometric function.

@@ -22,6 +22,9 @@ struct Directional {
     Vector l, v;
 };
 
+/// The vector that an entry point has an input for: l, v or one of the frame.
+const Vector& vector_of(const Directional& point, ir::GeometryField field);
+
 /// Unit vectors in double. `alpha` says how near `near_peak` is.
 Directional directions(Random& random, Directions which, double alpha);
 

@@ -4,7 +4,10 @@
 #include "analyze/directions.h"
 #include "analyze/grid.h"
 #include "analyze/random.h"
+#include "analyze/scalar.h"
 #include "evaluate/tape.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -20,18 +23,6 @@ constexpr std::size_t direction_cases = static_cast<std::size_t>(Directions::bot
 constexpr std::size_t value_cases = static_cast<std::size_t>(Values::one_hostile) + 1;
 
 // ---- values of one scalar
-
-/// One scalar input, its ends on the grid.
-struct Scalar {
-    double low = 0;
-    double high = 0;
-    double neutral = 0;
-    bool whole = false;  ///< holds integers only; booleans are 0 .. 1
-    bool parameter = false;
-
-    bool contains(double value) const { return low <= value && value <= high; }
-    double nearest_to_zero() const { return std::clamp(0.0, low, high); }
-};
 
 double anywhere(Random& random, const Scalar& scalar)
 {
@@ -81,43 +72,6 @@ double hostile(Random& random, const Scalar& scalar, Values values, const Grid& 
     return scalar.low;
 }
 
-const Vector& vector_of(const Directional& point, ir::GeometryField field)
-{
-    switch (field) {
-    case ir::GeometryField::l: return point.l;
-    case ir::GeometryField::v: return point.v;
-    case ir::GeometryField::x: return point.basis.x;
-    case ir::GeometryField::y: return point.basis.y;
-    default: return point.basis.z;  // an entry point has no other vector than n
-    }
-}
-
-/// The Scalar of one component of an input. Ends are rounded inwards: a range is a promise that
-/// points must keep.
-Scalar scalar_of(const ir::Module& module, const ir::Input& input, int component, const Grid& grid)
-{
-    Scalar scalar;
-    const double low = std::max(input.range.low, -grid.largest);
-    const double high = std::min(input.range.high, grid.largest);
-    scalar.low = to_grid(low, grid.precision);
-    if (scalar.low < low) scalar.low = next_above(scalar.low, grid);
-    scalar.high = to_grid(high, grid.precision);
-    if (scalar.high > high) scalar.high = next_below(scalar.high, grid);
-    // A range that holds no number of the grid: the nearest one must do.
-    if (scalar.low > scalar.high) scalar.low = scalar.high = to_grid(low, grid.precision);
-    scalar.whole =
-        input.quantity == ir::Quantity::integer || input.quantity == ir::Quantity::boolean;
-    if (input.quantity == ir::Quantity::boolean) scalar = {0, 1, 0, true, false};
-    scalar.parameter = input.origin == ir::Origin::parameter;
-    if (scalar.parameter)
-        scalar.neutral = std::clamp(
-            module.parameters[input.which].default_value[static_cast<std::size_t>(component)],
-            scalar.low, scalar.high);
-    else
-        scalar.neutral = scalar.contains(1) ? 1 : scalar.nearest_to_zero();
-    return scalar;
-}
-
 std::string_view text_of(Directions which)
 {
     constexpr std::array<std::string_view, direction_cases> texts{"",
@@ -164,12 +118,38 @@ std::string describe(const Case& which)
     return text.empty() ? "anywhere" : text;
 }
 
+std::string describe_inputs(const ir::Function& entry, const Points& points, std::size_t point)
+{
+    std::string text;
+    std::size_t column = 0;
+    for (const ir::Input& input : entry.inputs) {
+        const auto size = static_cast<std::size_t>(ir::components(input.type));
+        std::string value;
+        for (std::size_t k = 0; k < size; ++k)
+            value += fmt::format("{}{}", k == 0 ? "" : ", ", points.columns[column + k][point]);
+        column += size;
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", input.name,
+                            size == 1 ? value : "(" + value + ")");
+    }
+    return text;
+}
+
+std::vector<float> interleaved(const Points& points)
+{
+    const std::size_t columns = points.columns.size();
+    std::vector<float> out(columns * points.size());
+    for (std::size_t i = 0; i < columns; ++i)
+        for (std::size_t point = 0; point < points.size(); ++point)
+            out[point * columns + i] = points.columns[i][point];
+    return out;
+}
+
 Points points(const ir::Module& module, const ir::Function& entry, std::size_t count,
               Precision precision)
 {
     const Grid& grid = grid_of(precision);
     Points out;
-    std::vector<Scalar> scalars;       // one per column
+    const std::vector<Scalar> scalars = scalars_of(module, entry, grid);  // one per column
     std::vector<std::size_t> choices;  // the columns that `Values` speaks of
     bool has_directions = false;
     for (const ir::Input& input : entry.inputs)
@@ -177,11 +157,10 @@ Points points(const ir::Module& module, const ir::Function& entry, std::size_t c
             out.names.push_back(input.name +
                                 evaluate::component_suffix(input.type, input.quantity, k));
             out.columns.emplace_back(count);
-            scalars.push_back(scalar_of(module, input, k, grid));
             if (input.origin == ir::Origin::geometry)
                 has_directions = true;
             else if (input.quantity != ir::Quantity::direction)
-                choices.push_back(scalars.size() - 1);
+                choices.push_back(out.names.size() - 1);
         }
     const bool has_values = !choices.empty();
     const Borders borders{module, entry};

@@ -69,6 +69,13 @@ struct Points {
     std::size_t size() const { return cases.size(); }
 };
 
+/// The inputs of a point as people read them: `roughness = 0.5, l = (0, 0, 1)`; digits enough to
+/// read back exactly. `entry` is what the points are of.
+std::string describe_inputs(const ir::Function& entry, const Points& points, std::size_t point);
+
+/// As a harness reads them: the scalars of point 0, of point 1, …
+std::vector<float> interleaved(const Points& points);
+
 /// `count` points for a function over vectors (see ir::entry_point); every fourth is hostile. Where
 /// values become codes, every second one is close to the border of two codes.
 /// Values lie within the declared ranges, whose ends are rounded inwards to the grid of the

@@ -1,7 +1,5 @@
 #include "analyze/reference.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <chrono>
@@ -63,11 +61,7 @@ Reference reference(const ir::Module& module, ir::FunctionId function,
     out.points = points(module, out.entry, count, precision);
     assert(out.tape.inputs.size() == out.points.columns.size());
 
-    const std::size_t inputs = out.points.columns.size();
-    out.input.resize(inputs * count);
-    for (std::size_t i = 0; i < inputs; ++i)
-        for (std::size_t point = 0; point < count; ++point)
-            out.input[point * inputs + i] = out.points.columns[i][point];
+    out.input = interleaved(out.points);
 
     const std::size_t outputs = out.tape.outputs.size();
     out.outputs.resize(outputs);
@@ -130,19 +124,7 @@ std::vector<double> confirm(const Reference& reference, std::size_t point)
 
 std::string describe_inputs(const Reference& reference, std::size_t point)
 {
-    std::string text;
-    std::size_t column = 0;
-    for (const ir::Input& input : reference.entry.inputs) {
-        const auto size = static_cast<std::size_t>(ir::components(input.type));
-        std::string value;
-        for (std::size_t k = 0; k < size; ++k)
-            value += fmt::format("{}{}", k == 0 ? "" : ", ",
-                                 reference.points.columns[column + k][point]);
-        column += size;
-        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", input.name,
-                            size == 1 ? value : "(" + value + ")");
-    }
-    return text;
+    return describe_inputs(reference.entry, reference.points, point);
 }
 
 }  // namespace lobe::analyze

@@ -44,8 +44,7 @@ Reference reference(const ir::Module& module, ir::FunctionId function,
 /// The results at one point with 113-bit operations, one per component.
 std::vector<double> confirm(const Reference& reference, std::size_t point);
 
-/// The inputs of a point as people read them: `roughness = 0.5, l = (0, 0, 1)`; digits enough to
-/// read back exactly.
+/// The inputs of one of its points (see points.h).
 std::string describe_inputs(const Reference& reference, std::size_t point);
 
 }  // namespace lobe::analyze
