@@ -4,6 +4,11 @@
 // if that is smaller, over a floor. For radiance the floor is an 18 % grey card lit alike (0.18 /
 // pi n.l, see radiance.h); for a term it is 0.18. And in 8-bit codes as a display shows it: clamped
 // to [0, 1], encoded by the sRGB curve (IEC 61966-2-1), times 255; not rounded.
+//
+// The greatest error is of all points, wherever errors are: grazing directions, the ends of ranges,
+// borders where the exact value itself jumps. What is usual is said over points that a picture has:
+// values uniform in their ranges, and directions uniform above the horizon for half of them, around
+// the highlight (h within alpha of n) for the other half.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +19,7 @@ namespace lobe::analyze {
 
 struct Deviation {
     double scaled = 0;            ///< greatest; 0.02 is 2 %
+    double often = 0;             ///< 99 of 100 usual points have less of the same
     double typical = 0;           ///< median of the same
     double absolute = 0;          ///< greatest
     double root_mean_square = 0;  ///< of the absolute difference
@@ -26,5 +32,7 @@ struct Deviation {
 
 /// 0 .. 255 for a linear value.
 double display_code(double linear);
+/// The linear value in [0, 1] with this code.
+double linear_of_code(double code);
 
 }  // namespace lobe::analyze

@@ -14,7 +14,9 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lobe::analyze {
@@ -38,7 +40,7 @@ struct Candidate {
     std::optional<double> proved_rounding;  ///< bound of the scaled rounding error
     Cost cost;                              ///< given its fields
     Cost from_vectors;                      ///< with what the fields take
-    std::vector<Standing> standing;  ///< per family, by cost from vectors for models, else by cost
+    std::vector<Standing> standing;         ///< per family; empty without costs
 };
 
 std::string describe(const Candidate& candidate);  ///< `F_Schlick: spherical_gaussian; half`
@@ -46,10 +48,21 @@ std::string describe(const Candidate& candidate);  ///< `F_Schlick: spherical_ga
 struct Trade {
     std::string name;  ///< of a term or a model
     bool whole_model = false;
+    bool from_vectors = false;          ///< see `cost_of`
     std::vector<Candidate> candidates;  ///< the definition, stable, float, is first
     /// What was searched, in words: `all 216 combinations`, or how far from exact it may be.
     std::string search;
     std::optional<Deviation> quantization;  ///< of the model's packing, all parameters together
+
+    /// The cost that a candidate is judged by.
+    const Cost& cost_of(const Candidate& candidate) const
+    {
+        return from_vectors ? candidate.from_vectors : candidate.cost;
+    }
+    /// The error that it is judged by: `total.scaled` for a term, `total.often` for a model, whose
+    /// box has corners where any finite precision is as good as another; infinite where some result
+    /// is not finite.
+    double error_of(const Candidate& candidate) const;
 };
 
 struct ParetoOptions {
@@ -57,6 +70,10 @@ struct ParetoOptions {
     std::size_t points = std::size_t{1} << 15;
     bool terms = true;
     bool models = true;
+    std::string only_term;   ///< empty: all
+    std::string only_model;  ///< likewise
+    /// Imported modules whose terms are left out: they are looked at by themselves.
+    std::vector<std::string> elsewhere;
     std::function<void(const Progress&)> progress;
 };
 
@@ -65,14 +82,22 @@ struct Pareto {
     std::vector<Trade> trades;
     Costs about;  ///< drivers and devices; its `costs` are empty
     double seconds = 0;
+    ir::Module checked = {};  ///< with the forms that the compiler found
+    /// Those, as pairs of term and form.
+    std::set<std::pair<std::string, std::string>> found = {};
+
+    bool is_found(const std::string& term, const std::string& form) const
+    {
+        return found.contains({term, form});
+    }
 };
 
 /// `checked` has not been through optimize.
 Pareto pareto(const ir::Module& checked, const Sources& sources, const ParetoOptions& options,
               const Store& store);
 
-/// The selectable candidate of a model that is cheapest on a family with at most this scaled total
-/// error, or most accurate within this many issue cycles. Nothing if there is none.
+/// The selectable candidate that is cheapest on a family with at most this error (`error_of`), or
+/// most accurate within this many issue cycles. Nothing if there is none.
 std::optional<std::size_t> cheapest_within(const Trade& trade, Family family, double max_error);
 std::optional<std::size_t> most_accurate_within(const Trade& trade, Family family, double cycles);
 

@@ -12,12 +12,13 @@ using ir::GeometryField;
 using ir::Origin;
 using ir::SurfaceField;
 
-/// Builds the sum of a model's outputs over the union of their inputs.
+/// Builds the sum of functions over the union of their inputs.
 class Sum {
 public:
-    Sum(const ir::Module& module, const ir::Model& model, Channels channels) : module_{module}
+    Sum(const ir::Module& module, const std::vector<ir::FunctionId>& outputs, Channels channels)
+        : module_{module}
     {
-        for (const ir::ModelOutput& output : model.outputs) note(module_[output.function]);
+        for (const ir::FunctionId output : outputs) note(module_[output]);
         if (geometry_) {
             frame_.l = vector(GeometryField::l);
             frame_.v = vector(GeometryField::v);
@@ -27,8 +28,8 @@ public:
             frame_.x = vector(GeometryField::x);
             frame_.y = vector(GeometryField::y);
         }
-        for (const ir::ModelOutput& output : model.outputs) add(output.function);
-        function.quantity = module_[model.outputs.front().function].quantity;
+        for (const ir::FunctionId output : outputs) add(output);
+        function.quantity = module_[outputs.front()].quantity;
         if (channels == Channels::first && ir::components(function.type()) > 1) {
             function.result = function.graph.component(function.result, 0);
             function.quantity = ir::Quantity::number;
@@ -65,7 +66,7 @@ private:
 
     ir::ExprId input(const ir::Input& input)
     {
-        auto index = function.find_input(input.origin, input.which);
+        auto index = find(input);
         if (!index) {
             index = static_cast<std::uint32_t>(function.inputs.size());
             function.inputs.push_back(input);
@@ -73,6 +74,17 @@ private:
         ir::Range& range = function.inputs[*index].range;
         range = {std::max(range.low, input.range.low), std::min(range.high, input.range.high)};
         return function.graph.input(*index, input.type);
+    }
+
+    /// Arguments are told apart by their names.
+    std::optional<std::uint32_t> find(const ir::Input& input) const
+    {
+        if (input.origin != Origin::argument) return function.find_input(input.origin, input.which);
+        for (std::uint32_t i = 0; i < function.inputs.size(); ++i)
+            if (function.inputs[i].origin == Origin::argument &&
+                function.inputs[i].name == input.name)
+                return i;
+        return std::nullopt;
     }
 
     ir::ExprId operand(const ir::Input& wanted)
@@ -199,14 +211,22 @@ std::vector<bool> slots_read(const evaluate::Tape& tape)
 
 }  // namespace
 
-RadianceBox radiance_box(const ir::Module& module, const ir::Packing& packing, Channels channels)
+ir::Function radiance_of(const ir::Module& module, const std::vector<ir::FunctionId>& outputs,
+                         Channels channels)
 {
-    const Sum sum{module, packing.model, channels};
+    return Sum{module, outputs, channels}.function;
+}
+
+namespace {
+
+RadianceBox box_of(const ir::Module& module, const ir::Packing& packing,
+                   const ir::Function& radiance)
+{
     RadianceBox box;
-    box.tape = evaluate::compile(module, sum.function);
+    box.tape = evaluate::compile(module, radiance);
     const std::vector<bool> read = slots_read(box.tape);
     for (const evaluate::TapeInput& scalar : box.tape.inputs) {
-        const ir::Input& input = sum.function.inputs[scalar.input];
+        const ir::Input& input = radiance.inputs[scalar.input];
         const std::size_t index = box.coordinates.size();
         Coordinate& coordinate = box.coordinates.emplace_back();
         coordinate.name = scalar.name;
@@ -228,10 +248,28 @@ RadianceBox radiance_box(const ir::Module& module, const ir::Packing& packing, C
         case Origin::argument: set_range(coordinate, input.range); break;
         }
         if (scalar.name == "roughness") box.roughness = index;
+        if (scalar.name == "alpha") box.alpha = index;
         const bool varies = coordinate.low < coordinate.high && read[index];
         if (input.origin != Origin::geometry && varies) box.values.push_back(index);
     }
     return box;
+}
+
+}  // namespace
+
+RadianceBox whole_box(const ir::Module& module, const ir::Function& radiance)
+{
+    ir::Packing nothing;
+    for (const ir::Parameter& parameter : module.parameters)
+        nothing.measured.push_back({parameter.name, parameter.range, {}});
+    return box_of(module, nothing, radiance);
+}
+
+RadianceBox radiance_box(const ir::Module& module, const ir::Packing& packing, Channels channels)
+{
+    std::vector<ir::FunctionId> outputs;
+    for (const ir::ModelOutput& output : packing.model.outputs) outputs.push_back(output.function);
+    return box_of(module, packing, radiance_of(module, outputs, channels));
 }
 
 }  // namespace lobe::analyze

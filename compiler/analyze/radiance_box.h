@@ -35,6 +35,7 @@ struct RadianceBox {
     std::optional<std::size_t> light, view;  ///< coordinate of l.x and v.x, where l and v occur
     std::vector<std::size_t> values;         ///< those that vary, matter and are no directions
     std::optional<std::size_t> roughness;    ///< where highlights are sharp
+    std::optional<std::size_t> alpha;        ///< the same, of a term that takes alpha itself
 
     std::size_t width() const { return coordinates.size(); }
 };
@@ -44,6 +45,13 @@ enum class Channels : std::uint8_t {
     all,
     first
 };
+
+/// The sum of some functions, as one of vectors and everything else that they read.
+ir::Function radiance_of(const ir::Module& module, const std::vector<ir::FunctionId>& outputs,
+                         Channels channels = Channels::all);
+
+/// Every input over its declared range, parameters too.
+RadianceBox whole_box(const ir::Module& module, const ir::Function& radiance);
 
 /// `packing` names a model of the module, or of one that it imports.
 RadianceBox radiance_box(const ir::Module& module, const ir::Packing& packing,

@@ -120,29 +120,17 @@ float moved_value(Random& random, const Coordinate& coordinate, const Steps* ste
 
 }  // namespace
 
-void place_point(const RadianceBox& box, const StoredAs& stored, std::uint64_t index,
-                 RadianceMeter& meter, std::size_t row)
-{
-    Random random{index};
-    const bool plain = index % 2 == 0;
-    for (std::size_t i = 0; i < box.width(); ++i) meter.column(i)[row] = box.coordinates[i].low;
-    for (const std::size_t i : box.values) {
-        const Coordinate& coordinate = box.coordinates[i];
-        meter.column(i)[row] =
-            settled(coordinate, plain ? random.between(coordinate.low, coordinate.high)
-                                      : hostile(random, coordinate, stored[i]));
-    }
-    if (!box.light && !box.view) return;
+namespace {
 
-    constexpr std::array families{Directions::anywhere,       Directions::both_grazing,
-                                  Directions::equal,          Directions::both_grazing,
-                                  Directions::half_is_normal, Directions::near_peak,
-                                  Directions::light_grazing,  Directions::view_grazing,
-                                  Directions::along_normal,   Directions::nearly_opposed};
-    const Directions family = plain ? Directions::anywhere : families[index / 2 % families.size()];
+void place_directions(Random& random, const RadianceBox& box, Directions family,
+                      RadianceMeter& meter, std::size_t row)
+{
+    if (!box.light && !box.view) return;
     double alpha = random.magnitude(-12, 0);
     if (box.roughness)
         alpha = meter.column(*box.roughness)[row] * meter.column(*box.roughness)[row];
+    else if (box.alpha)
+        alpha = meter.column(*box.alpha)[row];
     const Directional at = directions(random, family, alpha);
     const auto local = [&at](const Vector& d) {
         return above_horizon({dot(d, at.basis.x), dot(d, at.basis.y), dot(d, at.basis.z)});
@@ -151,8 +139,65 @@ void place_point(const RadianceBox& box, const StoredAs& stored, std::uint64_t i
     if (box.view) write(meter, *box.view, row, local(at.v));
 }
 
+/// The point where nothing has been chosen yet.
+void place_fixed(const RadianceBox& box, RadianceMeter& meter, std::size_t row)
+{
+    for (std::size_t i = 0; i < box.width(); ++i) meter.column(i)[row] = box.coordinates[i].low;
+}
+
+void place_uniform_values(Random& random, const RadianceBox& box, RadianceMeter& meter,
+                          std::size_t row)
+{
+    for (const std::size_t i : box.values) {
+        const Coordinate& coordinate = box.coordinates[i];
+        meter.column(i)[row] = settled(coordinate, random.between(coordinate.low, coordinate.high));
+    }
+}
+
+}  // namespace
+
+void place_usual_point(const RadianceBox& box, Directions family, std::uint64_t index,
+                       RadianceMeter& meter, std::size_t row)
+{
+    Random random{index};
+    place_fixed(box, meter, row);
+    place_uniform_values(random, box, meter, row);
+    place_directions(random, box, family, meter, row);
+}
+
+void place_point(const RadianceBox& box, const StoredAs& stored, std::uint64_t index,
+                 RadianceMeter& meter, std::size_t row)
+{
+    if (index % 2 == 0) {
+        place_usual_point(box, Directions::anywhere, index, meter, row);
+        return;
+    }
+    Random random{index};
+    place_fixed(box, meter, row);
+    for (const std::size_t i : box.values) {
+        const Coordinate& coordinate = box.coordinates[i];
+        meter.column(i)[row] = settled(coordinate, hostile(random, coordinate, stored[i]));
+    }
+    constexpr std::array families{Directions::anywhere,       Directions::both_grazing,
+                                  Directions::equal,          Directions::both_grazing,
+                                  Directions::half_is_normal, Directions::near_peak,
+                                  Directions::light_grazing,  Directions::view_grazing,
+                                  Directions::along_normal,   Directions::nearly_opposed};
+    place_directions(random, box, families[index / 2 % families.size()], meter, row);
+}
+
 Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& start,
            int rounds, std::uint64_t key)
+{
+    const Measure measure = [&stored](RadianceMeter& meter) -> const std::vector<double>& {
+        meter.light();
+        return meter.compare(stored);
+    };
+    return climb(box, stored, start, rounds, key, measure);
+}
+
+Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& start,
+           int rounds, std::uint64_t key, const Measure& measure)
 {
     constexpr std::size_t rows = 128;  // one block of the tape
     constexpr std::uint32_t coarsest = 4, finest = 24;
@@ -178,8 +223,7 @@ Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<flo
                                         static_cast<float>(value), reach);
                 }
             }
-        meter.light();
-        const std::vector<double>& errors = meter.compare(stored);
+        const std::vector<double>& errors = measure(meter);
         const auto best = std::ranges::max_element(errors);
         if (*best > peak.error * progress)
             scale = std::max(coarsest, scale - 1);

@@ -4,9 +4,11 @@
 // searches find the same points on any number of threads.
 #pragma once
 
+#include "analyze/points.h"
 #include "analyze/radiance_meter.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,6 +21,10 @@ namespace lobe::analyze {
 void place_point(const RadianceBox& box, const StoredAs& stored, std::uint64_t index,
                  RadianceMeter& meter, std::size_t row);
 
+/// The same with values uniform in their ranges and directions as asked for.
+void place_usual_point(const RadianceBox& box, Directions family, std::uint64_t index,
+                       RadianceMeter& meter, std::size_t row);
+
 struct Peak {
     double error = -1;
     std::vector<float> point;
@@ -28,6 +34,11 @@ struct Peak {
 /// while there is nothing better. Directions stay unit and above the horizon, values in the box.
 Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& start,
            int rounds, std::uint64_t key);
+
+/// The errors of the points that a meter holds, however they are measured.
+using Measure = std::function<const std::vector<double>&(RadianceMeter&)>;
+Peak climb(const RadianceBox& box, const StoredAs& stored, const std::vector<float>& start,
+           int rounds, std::uint64_t key, const Measure& measure);
 
 struct Effort {
     std::size_t points = 0;

@@ -1,0 +1,169 @@
+#include "analyze/pareto.h"
+
+#include "analyze/minimax.h"
+#include "analyze/radiance.h"
+#include "analyze/trade.h"
+#include "optimize/optimize.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace lobe::analyze {
+
+std::string describe(const Candidate& candidate)
+{
+    std::string text;
+    for (const auto& [term, form] : candidate.choice)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", term, form);
+    if (text.empty()) text = "definition";
+    if (candidate.spelling != optimize::Spelling::stable)
+        text += fmt::format("; {}", optimize::name(candidate.spelling));
+    if (candidate.format != Format::float32) text += fmt::format("; {}", name(candidate.format));
+    return text;
+}
+
+double Trade::error_of(const Candidate& candidate) const
+{
+    if (candidate.total.not_finite > 0) return std::numeric_limits<double>::infinity();
+    return whole_model ? candidate.total.often : candidate.total.scaled;
+}
+
+namespace {
+
+/// The best selectable candidate by `less`, of those that `fits` lets in.
+template <class Fits, class Less>
+std::optional<std::size_t> best_of(const Trade& trade, const Fits& fits, const Less& less)
+{
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < trade.candidates.size(); ++i) {
+        const Candidate& candidate = trade.candidates[i];
+        if (!candidate.selectable || trade.cost_of(candidate).families.empty() || !fits(candidate))
+            continue;
+        if (!best || less(candidate, trade.candidates[*best])) best = i;
+    }
+    return best;
+}
+
+bool asks_for(const std::string& only, const std::string& name)
+{
+    return only.empty() || only == name;
+}
+
+/// Terms that the module's roots reach, but for the conditions of effects and terms that are shown
+/// with another module.
+std::vector<ir::FunctionId> terms_of(const ir::Module& module, const ParetoOptions& options)
+{
+    std::vector<ir::FunctionId> terms;
+    for (const ir::FunctionId id : module.reachable(module.roots())) {
+        const ir::Function& function = module[id];
+        if (function.kind != ir::Function::Kind::term ||
+            function.quantity == ir::Quantity::boolean || function.inputs.empty() ||
+            std::ranges::count(options.elsewhere, function.module) > 0 ||
+            !asks_for(options.only_term, function.name))
+            continue;
+        terms.push_back(id);
+    }
+    return terms;
+}
+
+/// Two ways that a build could choose between.
+bool has_alternative(const Trade& trade)
+{
+    return std::ranges::count(trade.candidates, true, &Candidate::selectable) > 1;
+}
+
+std::optional<Deviation> quantization(const ir::Module& optimized, const ir::Model& model,
+                                      const ParetoOptions& options)
+{
+    for (const ir::Packing& packing : optimized.packings) {
+        if (packing.model.name != model.name) continue;
+        const PackingErrors errors =
+            packing_errors(optimized, packing, {options.points, options.cost.jobs});
+        Deviation out;
+        out.scaled = errors.whole.worst;
+        out.typical = errors.whole.typical;
+        out.absolute = std::abs(errors.whole.witness.packed - errors.whole.witness.exact);
+        out.codes = std::abs(display_code(errors.whole.witness.packed) -
+                             display_code(errors.whole.witness.exact));
+        out.points = errors.points;
+        for (const auto& [name, value] : errors.whole.witness.inputs)
+            out.at += fmt::format("{}{} = {:.6g}", out.at.empty() ? "" : ", ", name, value);
+        return out;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::size_t> cheapest_within(const Trade& trade, Family family, double max_error)
+{
+    return best_of(
+        trade, [&](const Candidate& one) { return trade.error_of(one) <= max_error; },
+        [&](const Candidate& one, const Candidate& other) {
+            const double its = issue_on(trade.cost_of(one), family);
+            const double others = issue_on(trade.cost_of(other), family);
+            return its < others || (its == others && trade.error_of(one) < trade.error_of(other));
+        });
+}
+
+std::optional<std::size_t> most_accurate_within(const Trade& trade, Family family, double cycles)
+{
+    return best_of(
+        trade,
+        [&](const Candidate& one) {
+            return issue_on(trade.cost_of(one), family) <= cycles &&
+                   trade.error_of(one) < std::numeric_limits<double>::infinity();
+        },
+        [&](const Candidate& one, const Candidate& other) {
+            const double its = trade.error_of(one);
+            const double others = trade.error_of(other);
+            return its < others || (its == others && issue_on(trade.cost_of(one), family) <
+                                                         issue_on(trade.cost_of(other), family));
+        });
+}
+
+Pareto pareto(const ir::Module& original, const Sources& sources, const ParetoOptions& options,
+              const Store& store)
+{
+    const auto start = std::chrono::steady_clock::now();
+    Pareto out;
+    out.module = original.name;
+    MinimaxOptions minimax;
+    minimax.jobs = options.cost.jobs;
+    WithFoundForms with_found = add_found_forms(original, minimax, store);
+    out.checked = std::move(with_found.module);
+    const ir::Module& checked = out.checked;
+    for (const FoundForm& form : with_found.found) out.found.emplace(form.term, form.form);
+    const FoundNames& found = out.found;
+    const Measurer measurer = [&](std::span<const CostSubject> subjects) {
+        Costs costs = measure_costs(subjects, sources, options.cost, store);
+        out.about.no_statistics = costs.no_statistics;
+        out.about.driver = costs.driver;
+        out.about.device = costs.device;
+        return costs;
+    };
+    if (options.terms)
+        for (const ir::FunctionId term : terms_of(checked, options)) {
+            Trade of_term =
+                trade(TradeSubject::of_term(checked, term), found, options, measurer, store);
+            if (has_alternative(of_term)) out.trades.push_back(std::move(of_term));
+        }
+    if (options.models && !checked.models.empty()) {
+        const ir::Module optimized = optimize::optimize(checked);
+        for (const ir::Model& model : checked.models) {
+            if (!asks_for(options.only_model, model.name)) continue;
+            Trade of_model =
+                trade(TradeSubject::of_model(checked, model), found, options, measurer, store);
+            of_model.quantization = quantization(optimized, model, options);
+            out.trades.push_back(std::move(of_model));
+        }
+    }
+    const auto spent = std::chrono::steady_clock::now() - start;
+    out.seconds = std::chrono::duration<double>(spent).count();
+    return out;
+}
+
+}  // namespace lobe::analyze
