@@ -1,6 +1,7 @@
 #include "analyze/continuity.h"
 
 #include "analyze/continuity_boundaries.h"
+#include "analyze/heads.h"
 #include "analyze/kept_lines.h"
 #include "analyze/tasks.h"
 #include "evaluate/run.h"
@@ -42,12 +43,8 @@ public:
     {
         size_ = columns_.empty() ? 1 : columns_.front().size();
         results_.assign(tape_.outputs.size(), std::vector<double>(size_));
-        std::vector<const double*> inputs;
-        for (const auto& column : columns_) inputs.push_back(column.data());
-        std::vector<double*> outputs;
-        for (auto& result : results_) outputs.push_back(result.data());
-        evaluate::run(tape_, evaluate::Columns<double>{inputs}, evaluate::Results<double>{outputs},
-                      size_);
+        evaluate::run(tape_, evaluate::Columns<double>{heads(columns_)},
+                      evaluate::Results<double>{heads(results_)}, size_);
     }
     double difference(std::size_t a, std::size_t b) const
     {

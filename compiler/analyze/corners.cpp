@@ -1,5 +1,6 @@
 #include "analyze/corners.h"
 
+#include "analyze/heads.h"
 #include "analyze/kept_lines.h"
 #include "analyze/tasks.h"
 #include "verify/judge.h"
@@ -110,12 +111,10 @@ private:
             fmt::format("corners 1 evaluator {} {:x} {}\n{}", static_cast<int>(subject_.precision),
                         hash_, points_.size(), evaluate::dump(tape));
         return kept_row(row("evaluator"), key, [&](CornerRow& out) {
-            std::vector<const float*> inputs;
-            for (const auto& column : points_.columns) inputs.push_back(column.data());
+            const std::vector<const float*> inputs = heads(points_.columns);
             const std::size_t components = tape.outputs.size();
             std::vector<std::vector<float>> columns(components, std::vector<float>(points_.size()));
-            std::vector<float*> outputs;
-            for (auto& column : columns) outputs.push_back(column.data());
+            const std::vector<float*> outputs = heads(columns);
             std::vector<float> results(components * points_.size());
             Count count;
             const auto gather = [&] {

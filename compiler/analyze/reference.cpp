@@ -1,5 +1,7 @@
 #include "analyze/reference.h"
 
+#include "analyze/heads.h"
+
 #include <algorithm>
 #include <cassert>
 #include <chrono>
@@ -17,22 +19,6 @@ float least_float_from(double low)
     const auto nearest = static_cast<float>(low);
     if (static_cast<double>(nearest) >= low) return nearest;
     return std::nextafter(nearest, std::numeric_limits<float>::infinity());
-}
-
-template <class Number>
-std::vector<const Number*> heads(const std::vector<std::vector<Number>>& columns)
-{
-    std::vector<const Number*> result;
-    for (const auto& column : columns) result.push_back(column.data());
-    return result;
-}
-
-template <class Number>
-std::vector<Number*> heads(std::vector<std::vector<Number>>& columns)
-{
-    std::vector<Number*> result;
-    for (auto& column : columns) result.push_back(column.data());
-    return result;
 }
 
 /// Inputs of points first .. first + size - 1, each made a `Number`.
