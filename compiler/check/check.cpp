@@ -99,7 +99,7 @@ private:
         const std::uint64_t size = flat_size(program_.sizes, draft);
         operations_ += size;
         if (size > most_operations || operations_ > most_operations_together) {
-            report_size(draft, size, diagnostics);
+            if (lowered.good) report_size(draft, size, diagnostics);
             return std::nullopt;
         }
         const bool proved = prove(program_, lowered.draft, sources_, effort_, diagnostics);

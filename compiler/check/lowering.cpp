@@ -26,7 +26,8 @@ std::string Lowering::text_of(ExpressionId id) const
 void Lowering::oblige(Obligation obligation)
 {
     obligation.given = facts();
-    obligation.in_choice = guard_ != 0;
+    obligation.in_choice = in_choice_ || guard_ != 0;
+    obligation.term = term_;
     draft_.obligations.push_back(std::move(obligation));
 }
 
@@ -114,6 +115,7 @@ Value Lowering::lower(ExpressionId root)
     if (!root.valid()) return {};
     values_.clear();
     walk_ = walk(file_.tree, root);
+    if (!term_.empty()) unrolled_ += walk_.visits.size();
     for (std::size_t i = 0; i < walk_.visits.size(); ++i) {
         const Visit visit = walk_.visits[i];
         guard_ = visit.guard;
@@ -141,6 +143,7 @@ Value Lowering::lower_node(const syntax::Expression& expression)
         return lower_call(*call, span);
     if (const auto* conditional = std::get_if<syntax::Conditional>(&expression.node))
         return lower_conditional(*conditional, span);
+    if (const auto* sum = std::get_if<syntax::Sum>(&expression.node)) return lower_sum(*sum, span);
     return {};
 }
 
@@ -311,7 +314,7 @@ void Lowering::collect_facts(ExpressionId condition, bool holds, std::vector<Fac
 
 std::vector<Fact> Lowering::facts() const
 {
-    std::vector<Fact> result;
+    std::vector<Fact> result = given_;
     for (std::size_t guard = guard_; guard != 0; guard = walk_.guards[guard].outer)
         collect_facts(walk_.guards[guard].condition, walk_.guards[guard].holds, result);
     return result;

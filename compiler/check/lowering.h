@@ -1,9 +1,9 @@
 // From the expressions of one body to the graph of one function.
 //
 // `Lowering` is split by what is lowered: names and choices in lowering.cpp, members in
-// members.cpp, operators in operators.cpp, calls in calls.cpp. Every operation is typed here, in
-// the words of the author; what must be true of its operands is noted in the draft and proved
-// later.
+// members.cpp, operators in operators.cpp, calls in calls.cpp, sums in sums.cpp. Every operation is
+// typed here, in the words of the author; what must be true of its operands is noted in the draft
+// and proved later.
 #pragma once
 
 #include "check/builtins.h"
@@ -72,6 +72,14 @@ private:
     std::vector<Fact> facts() const;
     void collect_facts(syntax::ExpressionId condition, bool holds, std::vector<Fact>& result) const;
 
+    // sums.cpp
+    struct Around;
+    Value lower_sum(const syntax::Sum& sum, const Span& span);
+    std::optional<double> sum_end(syntax::ExpressionId end);
+    Value lower_term(const syntax::Sum& sum, double index);
+    Value add_term(const Value& total, const Value& term, const Span& span);
+    void report_unused_in(const syntax::Sum& sum);
+
     // members.cpp
     std::optional<Fix> field_fix(std::string_view name, const Span& span,
                                  std::vector<std::string>& helps) const;
@@ -113,6 +121,12 @@ private:
     std::unordered_map<std::uint32_t, Value> values_;  ///< of the expression being lowered
     Walk walk_;                                        ///< of the expression being lowered
     std::size_t guard_ = 0;                            ///< of the node being lowered
+
+    // Inside a sum: what is known of the place that it stands at, and of the term.
+    std::vector<Fact> given_;
+    bool in_choice_ = false;
+    std::string term_;          ///< `i = 3, j = 0`
+    std::size_t unrolled_ = 0;  ///< expressions lowered in sums so far
 };
 
 /// `falloff_scale(x: unit)`, for notes.

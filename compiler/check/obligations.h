@@ -57,6 +57,7 @@ struct Obligation {
     std::string function = {};  ///< domain: `sqrt`; argument: the callee
     std::string name = {};      ///< argument: of the callee's
     bool in_choice = false;     ///< inside an arm of a conditional
+    std::string term = {};      ///< of a sum: `i = 3`
 };
 
 /// `a / b else c`: a warning when b cannot be 0.

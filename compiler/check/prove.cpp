@@ -10,6 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
+#include <tuple>
 
 namespace lobe::check {
 namespace {
@@ -41,11 +44,13 @@ public:
         return obvious(obligation) || proof_of(obligation).prove();
     }
 
-    bool excludes_zero(const NamedLimit& limit) const
+    /// The divisor is never so small that it does not divide.
+    bool always_divides(const NamedLimit& limit) const
     {
         Obligation obligation;
         obligation.kind = Obligation::Kind::divisor;
-        obligation.any_of = {{limit.divisor, {.nonzero = true}}};
+        obligation.any_of = {{limit.divisor, {.low = ir::least_divisor}},
+                             {limit.divisor, {.high = -ir::least_divisor}}};
         obligation.given = limit.given;
         return obvious(obligation) || proof_of(obligation).prove_quickly();
     }
@@ -265,13 +270,23 @@ bool prove(const Program& program, Draft& draft, const Sources& sources, Effort&
 {
     const Proving proving{program.functions, draft, effort};
     bool proved = true;
+    // The terms of a sum ask the same of every index: one that fails is reported, and a limit is
+    // of use where one of them needs it.
+    std::set<std::tuple<Obligation::Kind, std::uint32_t, std::uint32_t>> failed;
     for (const Obligation& obligation : draft.obligations) {
-        if (proving.holds(obligation)) continue;
+        const std::tuple place{obligation.kind, obligation.whole.source, obligation.subject.begin};
+        if (failed.contains(place) || proving.holds(obligation)) continue;
         diagnostics.report(describe(proving.investigate(obligation), sources));
+        failed.insert(place);
         proved = false;
     }
-    for (const NamedLimit& limit : draft.limits)
-        if (proving.excludes_zero(limit)) diagnostics.report(describe_unused(limit, sources));
+    std::map<std::uint32_t, const NamedLimit*> unused;
+    for (const NamedLimit& limit : draft.limits) {
+        const auto [place, added] = unused.try_emplace(limit.limit.begin, &limit);
+        if (place->second && !proving.always_divides(limit)) place->second = nullptr;
+    }
+    for (const auto& [begin, limit] : unused)
+        if (limit) diagnostics.report(describe_unused(*limit, sources));
     if (proved && draft.function.result.valid()) draft.function.range = proving.result_range();
     return proved;
 }

@@ -200,6 +200,9 @@ private:
     /// The input that breaks it, or why none is shown.
     void evidence()
     {
+        if (!obligation_.term.empty())
+            diagnostic_.notes.push_back(
+                fmt::format("in the term of the sum with {}", obligation_.term));
         if (!certain_ && !finding_.unbounded.empty()) {
             diagnostic_.code = Code::unbounded_argument;
             for (const ir::Input* input : finding_.unbounded)

@@ -7,7 +7,8 @@
 
 namespace lobe::check {
 
-/// The operands of an expression as written, left to right. A conditional's condition is first.
+/// The operands of an expression as written, left to right. A conditional's condition is first. A
+/// sum has none: its ends are constants, and its body has a value per term.
 std::vector<syntax::ExpressionId> children(const syntax::Expression& expression);
 
 /// Under which choice an expression stands: inside the taken arm of a conditional. Guards form

@@ -215,9 +215,7 @@ private:
         lines_.write_comments(body.value_comments, columns + step);
         if (body.value_blank_before) lines_.blank_line();
         lines_.indent(columns + step);
-        // A line that starts with `-` would continue the `let` before it.
-        const bool minus =
-            !body.lets.empty() && lines_.expressions().flat(body.value).starts_with('-');
+        const bool minus = lines_.expressions().parenthesize_value(body);
         if (minus) lines_.put("(");
         lines_.put(lines_.expressions().broken(body.value, columns + step, columns + step));
         lines_.put(minus ? ")\n" : "\n");

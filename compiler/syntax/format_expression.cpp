@@ -1,5 +1,7 @@
 #include "syntax/format_expression.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -68,6 +70,7 @@ Level level_of(const Expression& expression)
                           [](const Unary& unary) {
                               return unary.op == UnaryOperator::negate ? level_unary : level_not;
                           },
+                          [](const Sum&) { return level_unary; },
                           [](const auto&) { return level_postfix; },
                       },
                       expression.node);
@@ -112,7 +115,19 @@ bool parenthesize_branch(const Expression& operand)
     return is<Conditional>(operand) || has_limit(operand);
 }
 
+/// Whether a sum holds nothing but a value; then it may stand on one line.
+bool is_one_line(const Sum& sum)
+{
+    return sum.body.lets.empty() && sum.body.value_comments.empty();
+}
+
 }  // namespace
+
+std::string slashes(const Comment& comment)
+{
+    return fmt::format("{}{}{}", comment.doc ? "///" : "//", comment.text.empty() ? "" : " ",
+                       comment.text);
+}
 
 std::size_t character_count(std::string_view text)
 {
@@ -146,6 +161,7 @@ public:
                        [&](const Binary& binary) { write_binary(binary, indent, fits); },
                        [&](const Call& call) { write_call(call, indent, fits); },
                        [&](const Conditional& node) { write_conditional(node, indent, fits); },
+                       [&](const Sum& sum) { write_sum(sum, indent, fits); },
                        [&](const Poison&) {},
                    },
                    expression.node);
@@ -197,7 +213,7 @@ private:
             return;
         }
         const bool chain = level != level_comparison;
-        const bool breaks = chain && !fits;
+        const bool breaks = chain && !fits && !opens_block(binary);
         const std::size_t inner = breaks ? indent + 2 : indent;
         const Expression& left = tree_[binary.left];
         // The left spine of a chain is one list: all of it breaks, or none.
@@ -247,6 +263,79 @@ private:
         part("else ", node.else_value, has_limit(tree_[node.else_value]));
     }
 
+    /// `2 * sum i in 0 .. 7 {`: the block may open on the line of what stands before it.
+    bool opens_block(const Binary& binary) const
+    {
+        return is<Sum>(tree_[binary.right]) &&
+               column_ + writer_.widths_[binary.left.index] <= widest_line / 2;
+    }
+
+    // ---- sums: a block of lines unless all of it is one short expression
+
+    void write_sum(const Sum& sum, std::size_t indent, bool fits)
+    {
+        put("sum ");
+        put(sum.index.text);
+        put(" in ");
+        operand(sum.first, parenthesize(tree_[sum.first], level_sum), indent + 2);
+        put(" .. ");
+        operand(sum.last, parenthesize(tree_[sum.last], level_sum), indent + 2);
+        put(" {");
+        if (fits && is_one_line(sum)) {
+            put(" ");
+            write(sum.body.value, indent);
+            put(" }");
+            return;
+        }
+        const std::size_t inner = indent + 2;
+        for (const Let& let : sum.body.lets) {
+            write_comments(let.comments, inner);
+            begin_line(let.blank_before, inner);
+            put("let ");
+            put(let.name.text);
+            put(" =");
+            write_let_value(let.value, inner);
+            for (const Comment& comment : let.trailing) put_comment(comment, "  ");
+        }
+        write_comments(sum.body.value_comments, inner);
+        begin_line(sum.body.value_blank_before, inner);
+        operand(sum.body.value, writer_.parenthesize_value(sum.body), inner);
+        new_line(indent);
+        put("}");
+    }
+
+    void write_let_value(ExpressionId value, std::size_t indent)
+    {
+        const bool beside = column_ + 1 + writer_.widths_[value.index] <= widest_line;
+        if (beside || writer_.is_block(value)) {
+            put(" ");
+            write(value, indent);
+        } else {
+            new_line(indent + 2);
+            write(value, indent + 2);
+        }
+    }
+
+    void begin_line(bool blank_before, std::size_t indent)
+    {
+        if (blank_before && !out_.ends_with('{')) out_ += '\n';
+        new_line(indent);
+    }
+
+    void write_comments(const std::vector<Comment>& comments, std::size_t indent)
+    {
+        for (const Comment& comment : comments) {
+            begin_line(comment.blank_before, indent);
+            put_comment(comment, "");
+        }
+    }
+
+    void put_comment(const Comment& comment, std::string_view space)
+    {
+        put(space);
+        put(slashes(comment));
+    }
+
     const ExpressionWriter& writer_;
     const Tree& tree_;
     bool may_break_;
@@ -293,15 +382,35 @@ ExpressionWriter::ExpressionWriter(const Tree& tree) : tree_(tree)
                     return std::size_t{16} + in(node.condition, false) +
                            in(node.then_value, false) + in(node.else_value, false);
                 },
+                [&](const Sum& sum) {
+                    if (!is_one_line(sum)) return widest_line + 1;
+                    return sum.index.text.size() + 17 +
+                           in(sum.first, parenthesize(tree_[sum.first], level_sum)) +
+                           in(sum.last, parenthesize(tree_[sum.last], level_sum)) +
+                           in(sum.body.value, false);
+                },
                 [](const Poison&) { return std::size_t{0}; },
             },
             expression.node));
     }
 }
 
+bool ExpressionWriter::is_block(ExpressionId id) const
+{
+    const auto* binary = std::get_if<Binary>(&tree_[id].node);
+    return is<Sum>(tree_[id]) || (binary != nullptr && is<Sum>(tree_[binary->right]) &&
+                                  widths_[binary->left.index] <= widest_line / 2);
+}
+
 bool ExpressionWriter::parenthesize_before_else(ExpressionId id) const
 {
     return parenthesize_branch(tree_[id]);
+}
+
+bool ExpressionWriter::parenthesize_value(const Body& body) const
+{
+    // A line that starts with `-` would continue the `let` before it.
+    return !body.lets.empty() && flat(body.value).starts_with('-');
 }
 
 bool ExpressionWriter::parenthesize_as_sum(ExpressionId id) const

@@ -17,14 +17,18 @@ public:
     /// Columns that the expression takes on one line.
     std::size_t width(ExpressionId id) const { return widths_[id.index]; }
 
-    /// On one line.
+    /// On one line, but for sums that are blocks.
     std::string flat(ExpressionId id) const;
 
     /// Starting in `column`; further lines are indented by `indent` or more.
     std::string broken(ExpressionId id, std::size_t column, std::size_t indent) const;
 
+    /// Whether it is a sum, or ends in one: it opens a block beside what stands before it.
+    bool is_block(ExpressionId id) const;
     /// Whether it needs parentheses where an `else` that follows is not its own.
     bool parenthesize_before_else(ExpressionId id) const;
+    /// Whether the value of a block needs them, so as not to continue the `let` before it.
+    bool parenthesize_value(const Body& body) const;
     /// Whether it needs parentheses as an operand of a comparison.
     bool parenthesize_as_sum(ExpressionId id) const;
 
@@ -34,8 +38,12 @@ private:
     class Layout;
 
     const Tree& tree_;
-    std::vector<std::size_t> widths_;  ///< of each expression, without its own parentheses
+    std::vector<std::size_t> widths_;  ///< of each, without its own parentheses; of what takes
+                                       ///< several lines more than `widest_line`
 };
+
+/// A comment as it is written, `// …` or `/// …`.
+std::string slashes(const Comment& comment);
 
 /// Characters of a text in UTF-8.
 std::size_t character_count(std::string_view text);

@@ -9,12 +9,6 @@ namespace {
 
 constexpr std::size_t widest_line = ExpressionWriter::widest_line;
 
-std::string slashes(const Comment& comment)
-{
-    return fmt::format("{}{}{}", comment.doc ? "///" : "//", comment.text.empty() ? "" : " ",
-                       comment.text);
-}
-
 /// Whether an empty line stands before the line or among its comments.
 bool stands_apart(const Line& line)
 {
@@ -74,6 +68,11 @@ void LineWriter::write_value(ExpressionId value, std::size_t columns)
 {
     if (column() + 1 + expressions_.width(value) <= widest_line) {
         out_ += fmt::format(" {}", expressions_.flat(value));
+        return;
+    }
+    if (expressions_.is_block(value)) {
+        out_ += ' ';
+        out_ += expressions_.broken(value, column(), columns);
         return;
     }
     out_ += '\n';

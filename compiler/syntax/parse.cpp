@@ -158,7 +158,9 @@ void Parser::fail_expected(std::string_view what, std::string help)
         result.primary = {span(current()), ""};
     }
     if (help.empty() && at(TokenKind::dot_dot))
-        help = "a range is written `[low, high]`; `..` stands between the bits of a channel";
+        help =
+            "a range is written `[low, high]`; `..` stands between the bits of a channel and the "
+            "ends of a sum";
     if (!help.empty()) result.helps.push_back(std::move(help));
     fail(std::move(result));
 }

@@ -80,9 +80,16 @@ void Parser::parse_block(Body& body)
 {
     body.block = true;
     const Token open = advance();
+    bool lost = false;  // the value may be what was skipped
     while (at(TokenKind::word_let)) {
         body.lets.push_back(parse_let());
+        lost = failed_;
         if (failed_) recover_in_block(false);
+    }
+    if (lost && at(TokenKind::right_brace)) {
+        body.value = poison();
+        advance();
+        return;
     }
     body.value_comments = take_comments();
     body.value_blank_before = current().blank_before;

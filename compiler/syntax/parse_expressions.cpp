@@ -1,5 +1,5 @@
 // The rules for expressions, loosest binding first: `if`, `or`, `and`, `not`, comparisons,
-// `+ -`, `* /` with its `else`, unary minus, `^`, members and calls.
+// `+ -`, `* /` with its `else`, unary minus, `^`, members, calls and `sum`.
 #include "syntax/parser.h"
 
 #include <fmt/format.h>
@@ -291,6 +291,7 @@ ExpressionId Parser::parse_primary()
     case TokenKind::number: advance(); return add(Number{std::string{text(token)}}, span(token), 1);
     case TokenKind::bad_number: advance(); return add(Poison{}, span(token), 1);
     case TokenKind::identifier: {
+        if (at_indexed_sum()) return parse_indexed_sum();
         // On a line of its own, `(` starts the value of a block rather than arguments.
         const Token& next = ahead(1);
         if (next.kind == TokenKind::left_parenthesis && !next.first_on_line) return parse_call();
@@ -354,6 +355,50 @@ ExpressionId Parser::parse_call()
     in_then_ = outer_then;
     if (too_high(high + 1)) return poison();
     return add(std::move(call), span_from(name.begin), high + 1);
+}
+
+/// `sum` is a name like any other unless an index and what it runs over stand beside it. No other
+/// name has a name beside it in an expression; what else is written there is taken for `in`.
+bool Parser::at_indexed_sum() const
+{
+    if (!at_word("sum") || ahead(1).kind != TokenKind::identifier || ahead(1).first_on_line)
+        return false;
+    const Token& after = ahead(2);
+    return after.kind == TokenKind::assign || after.kind == TokenKind::number ||
+           (after.kind == TokenKind::identifier && !after.first_on_line &&
+            (text(after) == "in" || text(after) == "from" || text(after) == "of"));
+}
+
+/// sum = "sum" name "in" sum ".." sum "{" { let } expression "}"
+ExpressionId Parser::parse_indexed_sum()
+{
+    const Nesting nesting{*this};
+    if (!nesting) return poison();
+    const Token keyword = advance();
+    const bool outer_then = in_then_;
+    in_then_ = false;
+    const std::string_view help = "a sum is written `sum i in 0 .. 7 { … }`";
+    Sum sum;
+    sum.index = expect_identifier("the name of the index");
+    if (!at_word("in"))
+        fail_expected("`in` and two whole numbers", std::string{help});
+    else
+        advance();
+    if (at(TokenKind::left_bracket)) fail_expected("a whole number", std::string{help});
+    sum.first = parse_sum();
+    if (!accept(TokenKind::dot_dot)) fail_expected("`..` and the last number", std::string{help});
+    sum.last = parse_sum();
+    if (at(TokenKind::left_brace))
+        parse_block(sum.body);
+    else
+        fail_expected("`{` and what is summed", std::string{help});
+    in_then_ = outer_then;
+    if (failed_) return poison();
+
+    std::size_t high = std::max({height(sum.first), height(sum.last), height(sum.body.value)});
+    for (const Let& let : sum.body.lets) high = std::max(high, height(let.value));
+    if (too_high(high + 1)) return poison();
+    return add(std::move(sum), span_from(keyword.begin), high + 1);
 }
 
 }  // namespace lobe::syntax

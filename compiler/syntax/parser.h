@@ -171,6 +171,8 @@ private:
     ExpressionId parse_primary();
     ExpressionId parse_parenthesized();
     ExpressionId parse_call();
+    bool at_indexed_sum() const;
+    ExpressionId parse_indexed_sum();
     ExpressionId parse_limit();
     void refuse_limit(ExpressionId of);
     void refuse_chain(ExpressionId left, ExpressionId right, const Token& second);

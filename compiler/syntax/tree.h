@@ -24,6 +24,34 @@ struct Identifier {
     Span span;
 };
 
+/// A `//` or `///` line, without the slashes and the one space after them.
+struct Comment {
+    std::string text;
+    Span span;
+    bool doc = false;
+    bool blank_before = false;  ///< an empty line stands before it
+};
+
+struct Let {
+    Identifier name;
+    ExpressionId value;
+    std::vector<Comment> comments;  ///< lines that stand before it
+    Span span;
+    bool blank_before = false;
+    std::vector<Comment> trailing;  ///< `// …` on its last line
+};
+
+/// `= expression`, or `{ let … expression }`.
+struct Body {
+    std::vector<Let> lets;
+    ExpressionId value;
+    bool block = false;
+    std::vector<Comment> value_comments;  ///< lines before the value, in a block
+    Span span;
+    bool value_blank_before = false;
+    std::vector<Comment> trailing;  ///< `// …` on its last line
+};
+
 // ---- expressions
 
 /// A literal, kept as its decimal text: a literal is a real number, not the nearest double.
@@ -79,12 +107,20 @@ struct Conditional {
     ExpressionId then_value;
     ExpressionId else_value;
 };
+/// `sum i in first .. last { let … value }`: the values for every whole number from first to last,
+/// added up.
+struct Sum {
+    Identifier index;
+    ExpressionId first;
+    ExpressionId last;
+    Body body;  ///< a block
+};
 /// What stands where parsing failed. Anything that uses it stays silent.
 struct Poison {};
 
 struct Expression {
     Span span;  ///< without enclosing parentheses
-    std::variant<Number, Name, Member, Unary, Binary, Call, Conditional, Poison> node;
+    std::variant<Number, Name, Member, Unary, Binary, Call, Conditional, Sum, Poison> node;
     bool parenthesized = false;  ///< written in parentheses; the formatter keeps what is needed
 };
 
@@ -104,38 +140,10 @@ struct TypeClause {
     Span span;
 };
 
-/// A `//` or `///` line, without the slashes and the one space after them.
-struct Comment {
-    std::string text;
-    Span span;
-    bool doc = false;
-    bool blank_before = false;  ///< an empty line stands before it
-};
-
 /// `name: type` of a term or model.
 struct ParameterClause {
     Identifier name;
     TypeClause type;
-};
-
-struct Let {
-    Identifier name;
-    ExpressionId value;
-    std::vector<Comment> comments;  ///< lines that stand before it
-    Span span;
-    bool blank_before = false;
-    std::vector<Comment> trailing;  ///< `// …` on its last line
-};
-
-/// `= expression`, or `{ let … expression }`.
-struct Body {
-    std::vector<Let> lets;
-    ExpressionId value;
-    bool block = false;
-    std::vector<Comment> value_comments;  ///< lines before the value, in a block
-    Span span;
-    bool value_blank_before = false;
-    std::vector<Comment> trailing;  ///< `// …` on its last line
 };
 
 // ---- items

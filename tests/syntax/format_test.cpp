@@ -69,7 +69,14 @@ TEST_CASE("expressions keep the parentheses that they need")
                                   "pi/2",
                                   "2 * 1/3",
                                   "a / 2",
-                                  "-(x^2)"}) {
+                                  "-(x^2)",
+                                  "2 * sum i in 0 .. 3 { i^2 } / 4",
+                                  "(sum i in 0 .. n + 1 { i })^2",
+                                  "(sum i in 0 .. 3 { v }).x",
+                                  "-sum i in -1 .. 3 { sum j in 0 .. 1 { i * j } }",
+                                  "2^sum i in 0 .. 3 { i }",
+                                  "sum i in (if a then b else c) .. (d < e) { if a then b else c }",
+                                  "f(sum i in 0 .. 3 { -i }, a)"}) {
         CAPTURE(canonical);
         CHECK(formatted_value(canonical) ==
               (std::string_view{canonical} == "2 * 1/3" ? "2 * 1 / 3" : std::string{canonical}));
@@ -137,6 +144,61 @@ TEST_CASE("long lines break before operators and after commas")
           fmt::format("module m\nterm t() =\n  if {}\n  then {}\n  else {} * {}\n", a, b, c, a));
     CHECK(formatted(fmt::format("module m\nterm t({}: x, {}: y, {}: z) -> unit = 1\n", a, b, c)) ==
           fmt::format("module m\nterm t(\n  {}: x,\n  {}: y,\n  {}: z\n) -> unit = 1\n", a, b, c));
+}
+
+TEST_CASE("a sum with locals or comments is a block of lines")
+{
+    CHECK(formatted(R"(module m
+term t() {
+  let a = 2*sum i in 0..3 {let b=i let c=b
+    c^2}
+  let d = sum i in 0..3 { // inside
+     // of b
+     let b = i  // behind b
+
+
+     let e = sum j in 0 .. 1 {   let f=j*b
+        (-f)}
+     // the value
+     (-b*e)
+  }
+  sum i in 1..2 { let z = i
+  ( z ) }
+}
+term u() = sum i in 0..3 { let b=i b}
+term w() = sum i in 0 .. 3 { a_name_that_is_so_long + another_name_that_is_long * 2 + quite_a_long_name }
+)") == R"(module m
+term t() {
+  let a = 2 * sum i in 0 .. 3 {
+    let b = i
+    let c = b
+    c^2
+  }
+  let d = sum i in 0 .. 3 {
+    // inside
+    // of b
+    let b = i  // behind b
+
+    let e = sum j in 0 .. 1 {
+      let f = j * b
+      (-f)
+    }
+    // the value
+    (-b * e)
+  }
+  sum i in 1 .. 2 {
+    let z = i
+    z
+  }
+}
+term u() = sum i in 0 .. 3 {
+  let b = i
+  b
+}
+term w() = sum i in 0 .. 3 {
+  a_name_that_is_so_long + another_name_that_is_long * 2 + quite_a_long_name
+}
+)");
 }
 
 TEST_CASE("a value that starts with a minus does not join the line before it")

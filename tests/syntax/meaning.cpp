@@ -55,6 +55,10 @@ public:
                     return fmt::format("(if {} {} {})", read(node.condition), read(node.then_value),
                                        read(node.else_value));
                 },
+                [&](const Sum& sum) {
+                    return fmt::format("(sum {} {} {} {})", sum.index.text, read(sum.first),
+                                       read(sum.last), read(sum.body));
+                },
                 [](const Poison&) { return std::string{"poison"}; },
             },
             tree_[id].node);
@@ -275,6 +279,13 @@ void collect(const Body& body, std::vector<std::string>& into)
     collect(body.trailing, into);
 }
 
+/// The comments inside sums, wherever those stand.
+void collect_sums(const Tree& tree, std::vector<std::string>& into)
+{
+    for (const Expression& expression : tree.expressions)
+        if (const auto* sum = std::get_if<Sum>(&expression.node)) collect(sum->body, into);
+}
+
 /// The comments of lines that hold no others.
 template <class Lines>
 void collect_lines(const Lines& lines, std::vector<std::string>& into)
@@ -362,6 +373,7 @@ std::vector<std::string> comments(const Tree& tree)
         collect(item.trailing, result);
     }
     collect(tree.footer, result);
+    collect_sums(tree, result);
     return result;
 }
 

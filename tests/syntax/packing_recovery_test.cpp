@@ -151,7 +151,8 @@ TEST_CASE("dots and percents stand in their places only")
     CHECK(only("term t() = %") == "E0201 expected an expression, found `%` [%]");
     CHECK(only("term t() = 0..1") == "E0201 expected the end of the declaration, found `..` [..]");
     CHECK(help("term t() -> float in [0..1] = 1") ==
-          "a range is written `[low, high]`; `..` stands between the bits of a channel");
+          "a range is written `[low, high]`; `..` stands between the bits of a channel and "
+          "the ends of a sum");
 }
 
 TEST_CASE("what a gbuffer is made of")

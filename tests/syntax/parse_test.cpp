@@ -62,6 +62,24 @@ TEST_CASE("inside then, an else belongs to the if")
     CHECK(expression("if a then if b then c else d / e else f") == "(if a (if b c (/ d e)) f)");
 }
 
+TEST_CASE("a sum has an index, two ends and a block")
+{
+    CHECK(expression("sum i in 0 .. 3 { i^2 }") == "(sum i 0 3 {(^ i 2)})");
+    CHECK(expression("sum i in -1..2*3 { let a = i let b = a a - b }") ==
+          "(sum i (neg 1) (* 2 3) {let a i; let b a; (- a b)})");
+    CHECK(expression("2 * sum i in 0 .. 3 { i } / 4") == "(/ (* 2 (sum i 0 3 {i})) 4)");
+    CHECK(expression("(sum i in 0 .. 3 { i })^2 + sum j in 1 .. 2 { sum k in 3 .. 4 { j * k } }") ==
+          "(+ (^ (sum i 0 3 {i}) 2) (sum j 1 2 {(sum k 3 4 {(* j k)})}))");
+    CHECK(expression("if a then sum i in 1 .. 2 { b / i else 0 } else c") ==
+          "(if a (sum i 1 2 {(/ b i else 0)}) c)");
+    CHECK(expression("f(sum i in 0 .. 1 { i }, sum)") == "(call f (sum i 0 1 {i}) sum)");
+    // Anywhere else `sum` is a name like any other.
+    CHECK(expression("sum + sum(sum) * sum.sum") == "(+ sum (* (call sum sum) (. sum sum)))");
+    const auto names = parsed("module m\ntier in\nparam p : unit = sum in \"L\"\n"
+                              "term sum(sum: unit) {\n let in = sum\n in\n}\n");
+    CHECK(codes(names.diagnostics) == "");
+}
+
 TEST_CASE("line breaks do not matter, except before an opening parenthesis")
 {
     CHECK(expression("a\n  + b\n  * c") == "(+ a (* b c))");

@@ -110,7 +110,7 @@ private:
         if (depth <= 0 || chance(6))
             return chance(2) ? make(Number{pick(numbers)}) : make(Name{name().text});
         const int next = depth - 1;
-        switch (below(8)) {
+        switch (below(9)) {
         case 0: return make(Member{expression(next), name()});
         case 1:
             return make(Unary{chance(3) ? UnaryOperator::logical_not : UnaryOperator::negate,
@@ -125,6 +125,11 @@ private:
             const ExpressionId then_value = expression(next);
             return make(Conditional{condition, then_value, expression(next)});
         }
+        case 4: {
+            const ExpressionId first = expression(next);
+            const ExpressionId last = expression(next);
+            return make(Sum{name(), first, last, sum_body(next)});
+        }
         default: {
             const auto op = static_cast<BinaryOperator>(below(13));
             const ExpressionId left = expression(next);
@@ -135,6 +140,20 @@ private:
         }
     }
     ExpressionId expression() { return expression(1 + below(depth_)); }
+
+    Body sum_body(int depth)
+    {
+        Body result;
+        result.block = true;
+        for (int i = chance(2) ? below(3) : 0; i > 0; --i) {
+            const ExpressionId value = expression(depth);
+            result.lets.push_back({name(), value, comments(true), {}, chance(3), trailing()});
+        }
+        result.value_comments = comments(false);
+        result.value_blank_before = chance(3);
+        result.value = expression(depth);
+        return result;
+    }
 
     TypeClause type()
     {

@@ -65,6 +65,32 @@ TEST_CASE("messages say what was seen and what was expected")
     CHECK(in_term("\"text\"") == "E0201 expected an expression, found a text [\"text\"]");
 }
 
+TEST_CASE("a sum says what it is made of")
+{
+    CHECK(in_term("sum i in 0 { i }") == "E0201 expected `..` and the last number, found `{` [{]");
+    CHECK(in_term("sum i = 0 .. 3 { i }") ==
+          "E0201 expected `in` and two whole numbers, found `=` [=]");
+    CHECK(in_term("sum i from 0 .. 3 { i }") ==
+          "E0201 expected `in` and two whole numbers, found `from` [from]");
+    CHECK(in_term("sum i 0 .. 3 { i }") ==
+          "E0201 expected `in` and two whole numbers, found `0` [0]");
+    CHECK(in_term("sum i in [0, 3] { i }") == "E0201 expected a whole number, found `[` [[]");
+    CHECK(in_term("sum i in 0 .. 3 i") == "E0201 expected `{` and what is summed, found `i` [i]");
+    CHECK(in_term("sum i in 0 .. 3 { }") == "E0201 this block has no value [}]");
+    CHECK(in_term("sum i in 0 .. 3 { i") == "E0202 this `{` is not closed [{]");
+    CHECK(in_term("sum i in 0 .. 3 { let a i }") ==
+          "E0201 expected `=` and a value, found `i` [i]");
+    CHECK(in_term("sum i in 0 .. 3 { a = i a }") ==
+          "E0201 a name in a block is declared with `let` [a] -> let ");
+    CHECK(in_term("0 .. 3") == "E0201 expected the end of the declaration, found `..` [..]");
+    // A mistake in a line of it costs that line, and what stands around the sum is read.
+    const auto two =
+        parsed("module m\nterm t() = (sum i in 0 .. 3 {\n let a = *\n let b = )\n a + b\n"
+               "}) * 2 +\nterm u() = 1\n");
+    CHECK(codes(two.diagnostics) == "E0201 E0201 E0201");
+    CHECK(names(two.tree) == "t u ");
+}
+
 TEST_CASE("items say what they are made of")
 {
     CHECK(only("module m\nterm t = 1\n") == "E0201 expected `(` and the parameters, found `=` [=]");
@@ -128,8 +154,10 @@ TEST_CASE("habits of other languages get a hint")
     CHECK(help("term a(x: unit = 1) = x") == "terms have no defaults; a `param` has one");
     CHECK(help("term a() -> float in (0, 1) = x") ==
           "a range holds its ends and is written `[low, high]`");
-    CHECK(help("term a() -> float in [0..1] = x") ==
-          "a range is written `[low, high]`; `..` stands between the bits of a channel");
+    CHECK(
+        help("term a() -> float in [0..1] = x") ==
+        "a range is written `[low, high]`; `..` stands between the bits of a channel and the ends "
+        "of a sum");
     CHECK(help("term a() = let x = 1 in x") == "`let` stands in a block: `{ let y = x  y * y }`");
     CHECK(help("let x = 1") ==
           "a value that terms share is a `param`, or a `term` without parameters");
