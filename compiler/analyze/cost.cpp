@@ -135,22 +135,27 @@ private:
     /// The jobs that measure links, after those of the subjects.
     void add_links()
     {
-        const auto add = [&](emit::NumberFormat format, int kind, emit::Evaluation evaluation) {
-            const auto [known, is_new] = links_.try_emplace({format, kind}, jobs_.size());
+        const auto add = [&](const Kind& kind, const emit::Evaluation& evaluation) {
+            const auto [known, is_new] = links_.try_emplace(kind, jobs_.size());
             if (!is_new) return;
             Chain& chain = jobs_.emplace_back().chain;
-            chain.format = format;
+            chain.format = kind.format;
             chain.copies = 32;
-            chain.once = chain_words(evaluation, format, 1);
-            chain.evaluation = std::move(evaluation);
+            chain.once = chain_words(evaluation, kind.format, 1);
+            chain.evaluation = evaluation;
         };
         for (std::size_t i = 0; i < subjects_.size(); ++i) {
             const emit::NumberFormat format = jobs_[i].chain.format;
-            const int results = static_cast<int>(jobs_[i].chain.evaluation.results.size());
-            add(format, results, emit::identity(results, format));
-            add(format, square, emit::product(1, format));
-            add(format, product, emit::product(2, format));
+            for (const int numbers : {1, results_of(jobs_[i].chain)})
+                for (const int exponent : {2, 3})
+                    add({format, numbers, exponent}, emit::powers(numbers, exponent, format));
+            add({format, 2, 1}, emit::product(format));
         }
+    }
+
+    static int results_of(const Chain& chain)
+    {
+        return static_cast<int>(chain.evaluation.results.size());
     }
 
     /// Why it failed; empty on success.
@@ -198,17 +203,18 @@ private:
         std::vector<FamilyCost> costs;
         for (std::size_t family = 0; family < family_count; ++family) {
             const auto& statistics = jobs_[subject].statistics[family];
-            const auto link = [&](int kind) -> std::optional<Slope> {
-                const Job& job = jobs_[links_.at({chain.format, kind})];
+            const auto link = [&](int numbers, int exponent) -> std::optional<Slope> {
+                const Job& job = jobs_[links_.at({chain.format, numbers, exponent})];
                 if (!job.statistics[family]) return std::nullopt;
                 return slope(*job.statistics[family], job.chain.copies);
             };
-            const auto identity = link(static_cast<int>(chain.evaluation.results.size()));
-            const auto one = link(square);
-            const auto two = link(product);
-            if (!statistics || !identity || !one || !two) return;
-            costs.push_back(
-                family_cost(all_families[family], chain, *statistics, {*identity, *one, *two}));
+            const auto squares = link(results_of(chain), 2);
+            const auto cubes = link(results_of(chain), 3);
+            const auto square = link(1, 2);
+            const auto product = link(2, 1);
+            if (!statistics || !squares || !cubes || !square || !product) return;
+            costs.push_back(family_cost(all_families[family], chain, *statistics,
+                                        {*squares, *cubes, *square, *product}));
         }
         out_.costs[subject].families = std::move(costs);
     }
@@ -220,9 +226,13 @@ private:
         options_.progress({++done_, total_, what});
     }
 
-    /// Kinds of links beside `identity`, whose kind is how many numbers it has.
-    static constexpr int square = -1;
-    static constexpr int product = -2;
+    /// What measures links: so many numbers to this power, or the product of two.
+    struct Kind {
+        emit::NumberFormat format{};
+        int numbers = 0;
+        int exponent = 0;  ///< 1: the product
+        friend auto operator<=>(const Kind&, const Kind&) = default;
+    };
 
     std::span<const CostSubject> subjects_;
     const Sources& sources_;
@@ -230,7 +240,7 @@ private:
     const Store& store_;
     Costs out_;
     std::vector<Job> jobs_;
-    std::map<std::pair<emit::NumberFormat, int>, std::size_t> links_;
+    std::map<Kind, std::size_t> links_;
     std::mutex mutex_;
     std::size_t done_ = 0;
     std::size_t total_ = 0;

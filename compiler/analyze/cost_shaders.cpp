@@ -107,13 +107,13 @@ FamilyCost family_cost(Family family, const Chain& chain, const ChainStatistics&
                        const Links& links)
 {
     const Slope whole = slope(statistics, chain.copies);
-    // `identity` reads as many numbers as it returns; the subject may read more, or fewer.
+    // The links that are measured read as many numbers as they return; the subject's may not.
     const double reads = chain.live_inputs - static_cast<double>(chain.evaluation.results.size());
     const int evaluations = chain.format == emit::NumberFormat::packed16 ? 2 : 1;
     const auto alone = [&](double Slope::*part, double more_reads) {
         const double read = links.product.*part - links.square.*part;
-        const double cost = whole.*part - links.identity.*part - more_reads * read;
-        return std::max(0.0, cost) / evaluations;
+        const double link = 2 * links.squares.*part - links.cubes.*part + more_reads * read;
+        return std::max(0.0, whole.*part - link) / evaluations;
     };
     FamilyCost cost;
     cost.valu = alone(&Slope::valu, reads);

@@ -40,16 +40,18 @@ struct Slope {
 };
 Slope slope(const ChainStatistics& statistics, int copies);
 
-/// The same of evaluations that measure links (see emit::identity): of so many numbers that come
-/// out as they went in, and of the product of one and of two.
+/// The same of evaluations that measure links: squares and cubes of as many numbers as the subject
+/// returns, the square of one, the product of two.
 struct Links {
-    Slope identity;  ///< of as many numbers as the subject returns
+    Slope squares;
+    Slope cubes;
     Slope square;
     Slope product;
 };
 
-/// A subject's cost on a family: its slope without its links. A link takes one operation per
-/// number that is read (the difference of `product` and `square`), and what joins the results.
+/// A subject's cost on a family: its slope without its links. Cubes and squares differ by their
+/// last multiplications, so squares without these are links that read as many numbers as they
+/// return; a number more to read is what `product` has beyond `square`.
 FamilyCost family_cost(Family family, const Chain& chain, const ChainStatistics& statistics,
                        const Links& links);
 

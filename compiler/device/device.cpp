@@ -246,4 +246,38 @@ std::optional<std::string> Device::run(std::span<const std::uint32_t> spirv, std
     return failure;
 }
 
+std::optional<std::string> Device::time(std::span<const std::uint32_t> spirv,
+                                        std::string_view entry, std::span<const float> input,
+                                        std::size_t outputs, std::uint32_t count,
+                                        std::span<double> seconds)
+{
+    if (auto why_not = refusal(spirv, entry, facts())) return why_not;
+    std::string why;
+    const auto portions =
+        divide(state_->physical, state_->limits, input.size(), outputs, count, why);
+    if (!portions) return why;
+    if (portions->points < count)
+        return fmt::format("{} points do not fit `{}` at once", count, facts().name);
+    std::shared_ptr<Lane> lane = state_->borrow(why);
+    if (!lane) return why;
+    Failure failure = lane->load(spirv, entry);
+    if (!failure) failure = lane->upload(input, std::vector<float>(outputs));
+    bool is_usable = true;
+    const auto dispatch = [&] {
+        failure = state_->dispatch(lane, count);
+        is_usable = !failure;
+    };
+    if (!failure) dispatch();
+    for (double& each : seconds) {
+        if (failure) break;
+        dispatch();
+        each = lane->seconds();
+    }
+    if (is_usable)
+        state_->give_back(std::move(lane));
+    else
+        state_->forget_lane();
+    return failure;
+}
+
 }  // namespace lobe::device

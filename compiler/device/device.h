@@ -77,6 +77,14 @@ public:
                                    std::span<const float> input, std::span<float> output,
                                    std::uint32_t count);
 
+    /// How long one dispatch of a shader takes, in seconds, as often as `seconds` is long: by the
+    /// device's own clock, or, on a software device, by the host's around the submission. A first
+    /// dispatch, which may still compile, is not among them. `count` is not divided: it must fit
+    /// the device at once. Returns why it failed, or nothing.
+    std::optional<std::string> time(std::span<const std::uint32_t> spirv, std::string_view entry,
+                                    std::span<const float> input, std::size_t outputs,
+                                    std::uint32_t count, std::span<double> seconds);
+
 private:
     struct State;
     explicit Device(std::unique_ptr<State> state);

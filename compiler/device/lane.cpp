@@ -2,6 +2,7 @@
 #include "device/lane.h"
 
 #include <array>
+#include <chrono>
 #include <limits>
 
 namespace lobe::device {
@@ -21,6 +22,7 @@ std::shared_ptr<Lane> Lane::open(const PhysicalDevice& physical, bool always_sta
     Failure failure = make_layouts(handle, lane->layouts_);
     if (!failure) failure = lane->prepare_descriptors();
     if (!failure) failure = lane->prepare_commands(physical.queue_family);
+    if (!failure) failure = lane->prepare_clock(physical);
     if (!failure) return lane;
     why = std::move(*failure);
     return nullptr;
@@ -83,6 +85,22 @@ Failure Lane::prepare_commands(std::uint32_t queue_family)
     result = vkCreateFence(device, &fences, nullptr, &fence);
     if (auto failure = failure_of("vkCreateFence", result)) return failure;
     fence_ = {device, fence};
+    return std::nullopt;
+}
+
+Failure Lane::prepare_clock(const PhysicalDevice& physical)
+{
+    if (physical.facts.software || physical.limits.timestampComputeAndGraphics != VK_TRUE)
+        return std::nullopt;
+    VkQueryPoolCreateInfo times{};
+    times.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    times.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    times.queryCount = 2;
+    VkQueryPool pool = VK_NULL_HANDLE;
+    const VkResult result = vkCreateQueryPool(device_.handle, &times, nullptr, &pool);
+    if (auto failure = failure_of("vkCreateQueryPool", result)) return failure;
+    clock_ = {device_.handle, pool};
+    seconds_per_tick_ = static_cast<double>(physical.limits.timestampPeriod) * 1e-9;
     return std::nullopt;
 }
 
@@ -149,7 +167,14 @@ Failure Lane::record(std::uint32_t groups, std::uint32_t count)
                             1, &set_, 0, nullptr);
     vkCmdPushConstants(commands_, layouts_.pipeline.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        sizeof count, &count);
+    const bool timed = clock_.get() != VK_NULL_HANDLE;
+    if (timed) {
+        vkCmdResetQueryPool(commands_, clock_.get(), 0, 2);
+        vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, clock_.get(), 0);
+    }
     vkCmdDispatch(commands_, groups, 1, 1);
+    if (timed)
+        vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, clock_.get(), 1);
     wait(compute, VK_ACCESS_SHADER_WRITE_BIT, copy | host,
          VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_HOST_READ_BIT);
     output_.record_download(commands_);
@@ -165,11 +190,21 @@ Failure Lane::dispatch(std::uint32_t groups, std::uint32_t count)
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands_;
     const VkFence fence = fence_.get();
+    const auto start = std::chrono::steady_clock::now();
     VkResult result = vkQueueSubmit(queue_, 1, &submit, fence);
     if (auto failure = failure_of("vkQueueSubmit", result)) return failure;
     result = vkWaitForFences(device_.handle, 1, &fence, VK_TRUE,
                              std::numeric_limits<std::uint64_t>::max());
     if (auto failure = failure_of("vkWaitForFences", result)) return failure;
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (clock_.get() != VK_NULL_HANDLE) {
+        std::array<std::uint64_t, 2> ticks{};
+        result = vkGetQueryPoolResults(device_.handle, clock_.get(), 0, 2, sizeof ticks,
+                                       ticks.data(), sizeof ticks[0],
+                                       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        if (auto failure = failure_of("vkGetQueryPoolResults", result)) return failure;
+        seconds_ = static_cast<double>(ticks[1] - ticks[0]) * seconds_per_tick_;
+    }
     return failure_of("vkResetFences", vkResetFences(device_.handle, 1, &fence));
 }
 

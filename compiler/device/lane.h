@@ -29,12 +29,17 @@ public:
     /// Runs the pipeline and waits for its end, however long that takes. Touches nothing but this.
     Failure dispatch(std::uint32_t groups, std::uint32_t count);
 
+    /// How long the last dispatch took: by the device's own clock, or, on a software device, from
+    /// its submission to its end.
+    double seconds() const { return seconds_; }
+
     void download(std::span<float> output) const;
 
 private:
     Lane(const PhysicalDevice& physical, OwnedDevice device);
     Failure prepare_descriptors();
     Failure prepare_commands(std::uint32_t queue_family);
+    Failure prepare_clock(const PhysicalDevice& physical);
     void point_descriptors_at_buffers();
     Failure record(std::uint32_t groups, std::uint32_t count);
 
@@ -47,6 +52,9 @@ private:
     OwnedCommandPool command_pool_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     OwnedFence fence_;
+    OwnedQueryPool clock_;  ///< two times, where the device has a clock of its own
+    double seconds_per_tick_ = 0;
+    double seconds_ = 0;
     Channel input_;
     Channel output_;
     OwnedPipeline pipeline_;

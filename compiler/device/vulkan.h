@@ -55,6 +55,7 @@ using OwnedPipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
 using OwnedSetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
 using OwnedDescriptorPool = Owned<VkDescriptorPool, vkDestroyDescriptorPool>;
 using OwnedCommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
+using OwnedQueryPool = Owned<VkQueryPool, vkDestroyQueryPool>;
 using OwnedFence = Owned<VkFence, vkDestroyFence>;
 
 /// The connection to the loader and its drivers, made once and kept until the process ends: a

@@ -173,20 +173,24 @@ Evaluation evaluation(const ir::Module& module, const Sources& sources,
     return Writer{module, sources, functions, format, from_vectors}.write();
 }
 
-Evaluation identity(int numbers, NumberFormat format)
+Evaluation powers(int numbers, int exponent, NumberFormat format)
 {
     Evaluation evaluation;
     evaluation.inputs = numbers;
-    for (int i = 0; i < numbers; ++i) evaluation.results.push_back(read_number(i, format));
+    for (int i = 0; i < numbers; ++i) {
+        std::string result = read_number(i, format);
+        for (int factor = 1; factor < exponent; ++factor) result += " * " + read_number(i, format);
+        evaluation.results.push_back(std::move(result));
+    }
     return evaluation;
 }
 
-Evaluation product(int inputs, NumberFormat format)
+Evaluation product(NumberFormat format)
 {
     Evaluation evaluation;
-    evaluation.inputs = inputs;
+    evaluation.inputs = 2;
     evaluation.results.push_back(
-        fmt::format("{} * {}", read_number(0, format), read_number(inputs - 1, format)));
+        fmt::format("{} * {}", read_number(0, format), read_number(1, format)));
     return evaluation;
 }
 

@@ -11,8 +11,8 @@
 //
 // A link is integer operations: these join with none of f's floating-point ones (a link that
 // added would fuse with a multiplication of f), and perturbing by one kind and joining by another
-// joins with none of its own. What links cost is measured with `identity` and `product` in place
-// of f.
+// joins with none of its own. What links cost is measured with `powers` and `product` in place of
+// f.
 #pragma once
 
 #include "emit/emit.h"
@@ -48,10 +48,10 @@ Evaluation evaluation(const ir::Module& module, const Sources& sources,
                       const std::vector<ir::FunctionId>& functions, NumberFormat format,
                       bool from_vectors);
 
-/// Evaluations to measure links with: of numbers that come out as they went in, and of the product
-/// of one number with itself or of two.
-Evaluation identity(int numbers, NumberFormat format);
-Evaluation product(int inputs, NumberFormat format);
+/// Evaluations to measure links with: of each number its power, by products (a number that came
+/// out as it went in would not pass through the format's registers); and the product of two.
+Evaluation powers(int numbers, int exponent, NumberFormat format);
+Evaluation product(NumberFormat format);
 
 /// How an evaluation reads the number or the condition that is its input `index`.
 std::string read_number(int index, NumberFormat format);
