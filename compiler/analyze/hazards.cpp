@@ -1,5 +1,6 @@
 #include "analyze/hazards.h"
 
+#include "analyze/corners.h"
 #include "analyze/hazards_remedy.h"
 #include "analyze/hazards_search.h"
 #include "analyze/tasks.h"
@@ -24,8 +25,8 @@ public:
     Analysis(const ir::Module& checked, const ir::Module& naive, const ir::Module& emitted,
              ir::FunctionId function, Precision precision)
         : function_{function}, precision_{precision}, space_{checked, function, precision},
-          naive_{watch(naive, function, space_.names())},
-          emitted_{watch(emitted, function, space_.names())}, checked_{checked}
+          naive_{watch(naive, function, space_.inputs().names())},
+          emitted_{watch(emitted, function, space_.inputs().names())}, checked_{checked}
     {
     }
 
@@ -34,16 +35,17 @@ public:
     {
         std::string key = fmt::format("hazards 1, {} points, {}\n", points,
                                       precision_ == Precision::float16 ? "half" : "float");
-        for (const ir::Input& input : space_.entry().inputs)
+        for (const ir::Input& input : space_.inputs().entry().inputs)
             key += fmt::format("{} in {} .. {}\n", input.name, input.range.low, input.range.high);
         return key + evaluate::dump(naive_.tape) + evaluate::dump(emitted_.tape);
     }
 
     std::string search(std::size_t count) const
     {
-        const Points where = points(checked_, space_.entry(), count, precision_);
-        std::string text = fmt::format("{} {}\n", not_finite_share(naive_, where, precision_),
-                                       not_finite_share(emitted_, where, precision_));
+        const Points corners = corner_points(space_.inputs(), space_.grid());
+        std::string text = fmt::format("{} {}\n", not_finite_share(naive_, corners, precision_),
+                                       not_finite_share(emitted_, corners, precision_));
+        const Points where = points(checked_, space_.inputs().entry(), count, precision_);
         for (const WatchedLine* line : {&naive_, &emitted_})
             for (const FoundHazard& found :
                  search_hazards(*line, emitted_, space_, where, precision_)) {
@@ -70,7 +72,7 @@ public:
             FoundHazard found;
             in >> kind >> found.instruction >> found.share >> found.lost_bits;
             found.kind = static_cast<HazardKind>(kind);
-            found.witness.resize(space_.names().size());
+            found.witness.resize(space_.inputs().names().size());
             for (double& value : found.witness) in >> value;
             if (spelling == "naive")
                 out.naive.push_back(describe(found, naive_, sources, applied));
@@ -90,7 +92,7 @@ private:
         out.operation = ir::name(line.function.graph[owner].op);
         out.expression = text_of(line, owner, sources);
         out.span = line.function.graph.span(owner);
-        out.witness = space_.describe(found.witness);
+        out.witness = space_.inputs().describe(found.witness);
         out.share = found.share;
         out.lost_bits = found.lost_bits;
         Trace trace{line, precision_};
@@ -99,9 +101,10 @@ private:
         truth.run(found.witness);
         truth.confirm(found.witness);
         const WorstResult worst = worst_result(trace, truth);
-        out.result =
-            fmt::format("{} = {:.6g}, exactly {:.6g}", line.tape.output_names[worst.component],
-                        worst.result, worst.exact);
+        const std::string result =
+            std::isnan(worst.result) ? "NaN" : fmt::format("{:.6g}", worst.result);
+        out.result = fmt::format("{} = {}, exactly {:.6g}", line.tape.output_names[worst.component],
+                                 result, worst.exact);
         if (&line == &naive_) out.remedy = remedy_of(naive_, owner, emitted_, applied);
         return out;
     }

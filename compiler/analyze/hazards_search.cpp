@@ -17,7 +17,7 @@ constexpr double nothing = -std::numeric_limits<double>::infinity();
 
 /// Points whose hazards are candidates for a witness, per hazard: the worst ones.
 constexpr std::size_t candidates_kept = 4;
-constexpr int climbing_steps = 96;
+constexpr int climbing_steps = 256;
 
 void read(const Points& points, std::size_t index, Point& point)
 {
@@ -97,7 +97,7 @@ private:
             group_of_.push_back(place->second);
         }
         tallies_.resize(groups_);
-        starts_.resize(groups_);
+        for (std::vector<Start>& starts : starts_) starts.resize(groups_);
     }
 
     /// Runs both lines at a point; whether the result is off there.
@@ -148,7 +148,7 @@ private:
     void note_starts(const Point& point)
     {
         const auto note = [&](std::size_t instruction, bool is_sum) {
-            Start& start = starts_[group_of_[instruction]];
+            Start& start = starts_[is_sum ? 1 : 0][group_of_[instruction]];
             const double here = height(instruction, is_sum);
             if (!(here > start.height)) return;
             start.height = here;
@@ -161,7 +161,7 @@ private:
             const evaluate::Slot slot = line_.tape.code[i].result;
             const double exact = std::fabs(trace_.exact(slot));
             const double error = std::fabs(trace_.device(slot) - trace_.exact(slot));
-            const double best = starts_[group_of_[i]].height;
+            const double best = starts_[1][group_of_[i]].height;
             if (best == nothing || error > exact * std::exp2(std::max(best, -digits)))
                 note(i, true);
         }
@@ -178,7 +178,7 @@ private:
         const std::size_t group = group_of_[instruction];
         const HazardKind kind = is_sum ? HazardKind::cancellation : HazardKind::domain;
         Tally& tally = tallies_[group][static_cast<std::size_t>(kind)];
-        Start here = starts_[group];
+        Start here = starts_[is_sum ? 1 : 0][group];
         if (tally.count > 0 || !tally.worst.empty() || here.height == nothing) return;
         Random random{group};
         for (int step = 0; step < climbing_steps; ++step) {
@@ -276,7 +276,7 @@ private:
     std::size_t groups_ = 0;
     std::vector<std::size_t> group_of_;  ///< by instruction
     std::vector<std::array<Tally, kinds>> tallies_;
-    std::vector<Start> starts_;
+    std::array<std::vector<Start>, 2> starts_;  ///< by group; of domains, of sums
     std::vector<HazardEvent> events_;
 };
 

@@ -29,6 +29,11 @@ Step strip(Rebuild& rebuild)
             return make(Op::power);
         case Op::guarded_smoothstep: return make(Op::smoothstep);
         case Op::guarded_normalize: return make(Op::normalize);
+        case Op::clamp:
+            // The language's own, around a cosine of two directions: both are one expression.
+            if (old[operands[0]].op == Op::dot && old.span(operands[0]) == span)
+                return rebuild.moved(operands[0]);
+            return rebuild.copy(id);
         case Op::select:
             if (const auto guard = find_guard(old, id)) return rebuild.moved(guard->quotient);
             return rebuild.copy(id);
