@@ -259,7 +259,12 @@ private:
         separate();
         part("then ", node.then_value, parenthesize_branch(tree_[node.then_value]));
         separate();
-        // `else if` chains need no parentheses.
+        // `else if` chains need no parentheses, and are no deeper at their end.
+        if (is<Conditional>(tree_[node.else_value])) {
+            put("else ");
+            write(node.else_value, indent);
+            return;
+        }
         part("else ", node.else_value, has_limit(tree_[node.else_value]));
     }
 
