@@ -1,4 +1,5 @@
 // Operators: arithmetic, powers, comparisons, conditions.
+#include "check/constants.h"
 #include "check/lowering.h"
 
 #include <fmt/format.h>
@@ -160,21 +161,23 @@ Value Lowering::lower_division(const Binary& binary, const ValueType& joined, co
     }
     draft_.limits.push_back({divisor, facts(), span_of(binary.limit), span_of(binary.right)});
     const ExprId limit = value(binary.limit).expr;
-    const ExprId zero = graph().literal("0", span);
-    const ExprId quotient = graph().apply(Op::divide, {dividend, divisor}, span);
-    if (graph()[divisor].type == ir::Type::scalar) {
-        const ExprId is_zero = graph().apply(Op::equal, {divisor, zero}, span);
-        return good(type, graph().apply(Op::select, {is_zero, limit, quotient}, span));
-    }
+    const ExprId least = graph().literal(ir::least_divisor, span);
+    const auto guarded = [&](ExprId a, ExprId b, ExprId otherwise) {
+        // The range of b drops the abs where it may.
+        const ExprId size = graph().apply(Op::absolute, {b}, span);
+        const ExprId divides = graph().apply(Op::less_equal, {least, size}, span);
+        const ExprId quotient = graph().apply(Op::divide, {a, b}, span);
+        return graph().apply(Op::select, {divides, quotient, otherwise}, span);
+    };
+    if (graph()[divisor].type == ir::Type::scalar)
+        return good(type, guarded(dividend, divisor, limit));
     // A choice is made by one condition, so each component makes its own.
     std::vector<ExprId> components;
     for (int i = 0; i < ir::components(type.type); ++i) {
         const auto component = [&](ExprId of) {
             return graph()[of].type == ir::Type::scalar ? of : graph().component(of, i, span);
         };
-        const ExprId is_zero = graph().apply(Op::equal, {component(divisor), zero}, span);
-        components.push_back(
-            graph().apply(Op::select, {is_zero, component(limit), component(quotient)}, span));
+        components.push_back(guarded(component(dividend), component(divisor), component(limit)));
     }
     return good(type, graph().construct(type.type, components, span));
 }
@@ -209,7 +212,11 @@ Value Lowering::lower_power(ExpressionId base_id, ExpressionId exponent_id, cons
     require(Obligation::Kind::power_base, {{base.expr, {.low = 0}}}, base_id);
     require(Obligation::Kind::power_zero,
             {{base.expr, {.low = 0, .low_open = true}}, {exponent.expr, {.low = 0}}}, exponent_id);
-    return good(type, graph().apply(Op::guarded_power, {base.expr, exponent.expr}, span));
+    // 0^(5/2) is 0 everywhere; only an exponent that varies needs care.
+    Diagnostics said;
+    const auto constant = constant_value(file_.tree, exponent_id, said);
+    const Op op = constant && *constant > 0 ? Op::power : Op::guarded_power;
+    return good(type, graph().apply(op, {base.expr, exponent.expr}, span));
 }
 
 Value Lowering::lower_comparison(const Binary& binary, const Span& span)

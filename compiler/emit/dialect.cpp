@@ -166,12 +166,14 @@ std::string_view geometry_name(ir::GeometryField field)
 }
 
 /// The nearest half, ties to even, with every digit it has: glslang cuts half literals off
-/// instead of rounding them, and so would take the next lower half for a shortened one.
+/// instead of rounding them, and so would take the next lower half for a shortened one. What is not
+/// 0 is a normal number, as evaluate has it: a bound above 0 stays one.
 std::string exact_half(double value)
 {
     constexpr double largest = 65504;
-    const double size = std::fmin(std::fabs(value), largest);
-    const double step = size < 0x1p-14 ? 0x1p-24 : std::ldexp(1.0, std::ilogb(size) - 10);
+    constexpr double least = 0x1p-14;
+    const double size = value == 0 ? 0 : std::clamp(std::fabs(value), least, largest);
+    const double step = size == 0 ? least : std::ldexp(1.0, std::ilogb(size) - 10);
     constexpr int decimals = 24;  // of the least half, 2^-24
     std::string text =
         fmt::format("{:.{}f}", std::copysign(std::nearbyint(size / step) * step, value), decimals);

@@ -214,12 +214,15 @@ std::vector<Record> Listing::helpers()
         }
         if (scalars.empty() && vectors.empty()) continue;
 
-        Record values{{{"name", name}, {"zero", dialect_.literal(0)}}, {{"vectors", vectors}}};
-        if (componentwise) {
+        Record values{{{"name", name}}, {{"vectors", vectors}}};
+        if (componentwise) values.lists["scalars"] = scalars;
+        if (op == ir::Op::guarded_smoothstep) {
+            values.texts["zero"] = dialect_.literal(0);
             values.texts["one"] = dialect_.literal(1);
-            values.lists["scalars"] = scalars;
+            values.texts["two"] = dialect_.literal(2);
+            values.texts["three"] = dialect_.literal(3);
+            values.texts["width"] = dialect_.literal(ir::least_divisor);
         } else {
-            values.texts["scalar"] = dialect_.type(ir::Type::scalar);
             values.texts["least"] = dialect_.least_normal;
         }
         const std::string path = fmt::format("{}/{}{}", dialect_.helpers,

@@ -253,14 +253,22 @@ private:
     {
         const auto operands = graph_.operands(id);
         std::string_view word = spelling.word;
+        Text left = texts_[operands[0]];
         Text right = texts_[operands[1]];
+        // `x > 0.0` reads better than `0.0 < x`.
+        const Op op = graph_[id].op;
+        if ((op == Op::less || op == Op::less_equal) && graph_[operands[0]].op == Op::literal &&
+            graph_[operands[1]].op != Op::literal) {
+            std::swap(left, right);
+            word = op == Op::less ? ">" : ">=";
+        }
         // `a + -b` is `a - b`, to the bit.
         const bool negative = right.precedence == Precedence::unary && right.text.front() == '-';
         if (graph_[id].op == Op::add && negative) {
             word = "-";
             right = {right.text.substr(1), Precedence::primary};
         }
-        return {fmt::format("{} {} {}", nested(texts_[operands[0]], spelling, true), word,
+        return {fmt::format("{} {} {}", nested(left, spelling, true), word,
                             nested(right, spelling, false)),
                 spelling.precedence};
     }

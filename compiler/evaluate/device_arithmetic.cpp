@@ -131,6 +131,8 @@ Acceptance Device::divide(const Acceptance& a, const Acceptance& b) const
     const bool promised =
         (b.low >= least && b.high <= largest) || (b.high <= -least && b.low >= -largest);
     const bool undefined = a.undefined || b.undefined || !promised || reaches_infinity(a);
+    // A multiple of 0, or 0 rounded: no device gives anything else.
+    if (promised && a.low == 0 && a.high == 0) return {0, 0, undefined};
     const double units = 2.5 + slack;
     if (a.low >= 0 && b.low > 0)
         return within_units({a.low / b.high, a.high / b.low}, units, units, undefined);

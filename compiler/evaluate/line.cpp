@@ -24,6 +24,26 @@ std::size_t hash_of(const Step& step)
 
 /// Integer exponents up to this are products; optimize/legalize.cpp writes the same products.
 constexpr int largest_product = 64;
+ir::Literal literal_of(double value)
+{
+    ir::Graph graph;
+    return graph.literal_of(graph.literal(value));
+}
+
+/// Guards keep an argument at these or above: the least normal float, and what divides. A literal
+/// is never less than the least normal number of the format it is read in, so in half both are
+/// that.
+const ir::Literal& least_normal()
+{
+    static const ir::Literal literal = literal_of(0x1p-126);
+    return literal;
+}
+const ir::Literal& least_divisor()
+{
+    static const ir::Literal literal = literal_of(ir::least_divisor);
+    return literal;
+}
+
 /// Up to this they are products where the base is negative, and powers elsewhere.
 constexpr int largest_product_of_negative = 4096;
 
@@ -73,9 +93,11 @@ private:
     Value intern(const Step& step);
     Value constant(const ir::Literal& literal);
     Value number(int value);
+    Value at_least(Value x, const ir::Literal& low);
     Value product(Value a, Value b);
     Value sum(const Components& terms);
     Value integer_power(Value base, int exponent);
+    Value bounded_quotient(Value condition, Value quotient);
     Components scalars(const Frame& frame, ExprId id);
     Components each(const Frame& frame, ExprId id);
 
@@ -123,6 +145,11 @@ Value Scalarizer::constant(const ir::Literal& literal)
 Value Scalarizer::number(int value)
 {
     return constant({std::to_string(value), static_cast<double>(value)});
+}
+
+Value Scalarizer::at_least(Value x, const ir::Literal& low)
+{
+    return emit(TapeOp::maximum, x, constant(low));
 }
 
 Value Scalarizer::product(Value a, Value b)
@@ -178,9 +205,9 @@ Components Scalarizer::each(const Frame& frame, ExprId id)
                 result.push_back(chain);
                 continue;
             }
-            const TapeOp power = op == Op::power ? TapeOp::power : TapeOp::guarded_power;
+            const Value base = op == Op::power ? operand(0) : at_least(operand(0), least_normal());
             result.push_back(emit(TapeOp::select, emit(TapeOp::less, operand(0), number(0)), chain,
-                                  emit(power, operand(0), operand(1))));
+                                  emit(TapeOp::power, base, operand(1))));
             continue;
         }
         switch (op) {
@@ -217,7 +244,9 @@ Components Scalarizer::each(const Frame& frame, ExprId id)
             LOBE_SAME_2(subtract)
             LOBE_SAME_2(divide)
             LOBE_SAME_2(power)
-            LOBE_SAME_2(guarded_power)
+        case Op::guarded_power:
+            result.push_back(emit(TapeOp::power, at_least(operand(0), least_normal()), operand(1)));
+            break;
             LOBE_SAME_2(minimum)
             LOBE_SAME_2(maximum)
             LOBE_SAME_2(step)
@@ -230,8 +259,17 @@ Components Scalarizer::each(const Frame& frame, ExprId id)
             LOBE_SAME_3(lerp)
             LOBE_SAME_3(clamp)
             LOBE_SAME_3(smoothstep)
-            LOBE_SAME_3(guarded_smoothstep)
-            LOBE_SAME_3(select)
+        case Op::guarded_smoothstep: {
+            // Of edges 0 and b - a: the same operations on the way, and the width is kept above 0.
+            const Value width = emit(TapeOp::subtract, operand(1), operand(0));
+            result.push_back(emit(TapeOp::smoothstep, number(0), at_least(width, least_divisor()),
+                                  emit(TapeOp::subtract, operand(2), operand(0))));
+            break;
+        }
+        case Op::select:
+            result.push_back(emit(TapeOp::select, operand(0),
+                                  bounded_quotient(operand(0), operand(1)), operand(2)));
+            break;
 #undef LOBE_SAME_1
 #undef LOBE_SAME_2
 #undef LOBE_SAME_3
@@ -248,6 +286,28 @@ Components Scalarizer::each(const Frame& frame, ExprId id)
         }
     }
     return result;
+}
+
+/// The quotient of `a / b else c`, whose condition is t <= |b| (or t <= b), without a division by
+/// anything below t: a / max(b, t), or sign(b) a / max(|b|, t). Where the quotient counts that is
+/// the same to the bit, and sets of numbers see that it is bounded.
+Value Scalarizer::bounded_quotient(Value condition, Value quotient)
+{
+    const auto is = [&](Value value, TapeOp op) {
+        return line_.steps[value].kind == Step::Kind::operation && line_.steps[value].op == op;
+    };
+    if (!is(condition, TapeOp::less_equal) || !is(quotient, TapeOp::divide)) return quotient;
+    const Value least = line_.steps[condition].operands[0];
+    const Value size = line_.steps[condition].operands[1];
+    const Value a = line_.steps[quotient].operands[0];
+    const Value b = line_.steps[quotient].operands[1];
+    if (line_.steps[least].kind != Step::Kind::constant ||
+        line_.constants[line_.steps[least].index].value <= 0)
+        return quotient;
+    if (size == b) return emit(TapeOp::divide, a, emit(TapeOp::maximum, b, least));
+    if (!is(size, TapeOp::absolute) || line_.steps[size].operands[0] != b) return quotient;
+    return emit(TapeOp::divide, emit(TapeOp::multiply, a, emit(TapeOp::sign, b)),
+                emit(TapeOp::maximum, size, least));
 }
 
 Components Scalarizer::scalars(const Frame& frame, ExprId id)
@@ -278,10 +338,11 @@ Components Scalarizer::scalars(const Frame& frame, ExprId id)
     case Op::length: return {emit(TapeOp::square_root, dot(operand(0), operand(0)))};
     case Op::normalize:
     case Op::guarded_normalize: {
-        const auto op = expr.op == Op::normalize ? TapeOp::normalized : TapeOp::guarded_normalized;
-        const Value squares = dot(operand(0), operand(0));
+        Value squares = dot(operand(0), operand(0));
+        if (expr.op == Op::guarded_normalize) squares = at_least(squares, least_normal());
         Components result;
-        for (const Value component : operand(0)) result.push_back(emit(op, component, squares));
+        for (const Value component : operand(0))
+            result.push_back(emit(TapeOp::normalized, component, squares));
         return result;
     }
     case Op::cross: {

@@ -46,7 +46,11 @@ double to_half(const ir::Literal& literal)
     // around the number, the odd one is no midpoint of two halves.
     const Interval around = to_interval(literal);
     const bool low_is_odd = (std::bit_cast<std::uint64_t>(around.low) & 1U) != 0;
-    return round_to_half(low_is_odd ? around.low : around.high, HalfMode::keep_denormals);
+    const double nearest =
+        round_to_half(low_is_odd ? around.low : around.high, HalfMode::keep_denormals);
+    return literal.value == 0 || std::abs(nearest) >= least_normal_half
+               ? nearest
+               : std::copysign(least_normal_half, literal.value);
 }
 
 Interval to_interval(const ir::Literal& literal)

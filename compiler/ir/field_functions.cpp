@@ -145,8 +145,7 @@ private:
             for (unsigned n = exponent; n > 1; n /= 2) x = write.apply(Op::square_root, x);
             return x;
         }
-        return write.graph.apply(Op::guarded_power, {x, write.number(1.0 / code_.exponent)},
-                                 write.span);
+        return write.graph.apply(Op::power, {x, write.number(1.0 / code_.exponent)}, write.span);
     }
 
     /// The nearest whole number that is in the range.

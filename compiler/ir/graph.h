@@ -60,6 +60,10 @@ int components(Type type);
 Type vector_type(int components);
 std::string_view name(Type type);
 
+/// `a / b else c` is a / b where |b| is at least this, and c elsewhere: 2^-64, so that no quotient
+/// of what is shipped comes near the end of float. In half it is that format's least normal number.
+inline constexpr double least_divisor = 0x1p-64;
+
 struct Expr;
 struct Function;
 using ExprId = Id<Expr>;

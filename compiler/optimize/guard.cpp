@@ -9,16 +9,16 @@ std::optional<DivisionGuard> find_guard(const Graph& graph, ExprId id)
     if (graph[id].op != Op::select) return std::nullopt;
     const auto operands = graph.operands(id);
     const ExprId condition = operands[0];
-    const Op op = graph[condition].op;
-    if (op != Op::equal && op != Op::not_equal) return std::nullopt;
-    const DivisionGuard guard = op == Op::equal ? DivisionGuard{operands[2], operands[1]}
-                                                : DivisionGuard{operands[1], operands[2]};
-    if (graph[guard.quotient].op != Op::divide) return std::nullopt;
-    const ExprId divisor = graph.operands(guard.quotient)[1];
-    const auto sides = graph.operands(condition);
-    const bool is_zero_test = (sides[0] == divisor && graph.is_literal(sides[1], 0)) ||
-                              (sides[1] == divisor && graph.is_literal(sides[0], 0));
-    return is_zero_test ? std::optional{guard} : std::nullopt;
+    const ExprId quotient = operands[1];
+    if (graph[condition].op != Op::less_equal || graph[quotient].op != Op::divide)
+        return std::nullopt;
+    const ExprId least = graph.operands(condition)[0];
+    const ExprId size = graph.operands(condition)[1];
+    const ExprId divisor = graph.operands(quotient)[1];
+    if (graph[least].op != Op::literal || !(graph.literal_of(least).value > 0)) return std::nullopt;
+    const bool is_size =
+        size == divisor || (graph[size].op == Op::absolute && graph.operands(size)[0] == divisor);
+    return is_size ? std::optional{DivisionGuard{quotient, operands[2]}} : std::nullopt;
 }
 
 Facts<Expr, bool> guarded_divisions(const Function& function)

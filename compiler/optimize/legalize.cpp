@@ -109,9 +109,9 @@ bool has_domain(Op op)
 /// One expression and the ranges of its operands.
 class Guard {
 public:
-    Guard(Rebuild& rebuild, const Facts<Expr, Interval>& ranges,
+    Guard(Rebuild& rebuild, const Facts<Expr, Interval>& ranges, const Facts<Expr, Interval>& reals,
           const Facts<Expr, bool>& guarded_divisions, ExprId id)
-        : rebuild_{rebuild}, ranges_{ranges},
+        : rebuild_{rebuild}, ranges_{ranges}, reals_{reals},
           guarded_divisions_{guarded_divisions}, id_{id}, old_{rebuild.old().graph}
     {
     }
@@ -162,13 +162,13 @@ private:
     {
         const Interval& divisor = range(1);
         if (divisor.low > 0 || divisor.high < 0 || guarded_divisions_[id_]) return copy();
-        const ExprId least = graph().literal(smallest_normal_float);
-        const Type type = old_[old_.operands(id_)[1]].type;
-        if (divisor.low >= 0 || type != Type::scalar)
-            return graph().apply(Op::divide,
-                                 {operand(0), graph().apply(Op::maximum, {operand(1), least})},
-                                 old_.span(id_));
-        return copy();
+        const Interval& exact = reals_[old_.operands(id_)[1]];
+        const bool negative = exact.high <= 0 && exact.low < 0;
+        const ExprId least =
+            graph().literal(negative ? -smallest_normal_float : smallest_normal_float);
+        const Op held = negative ? Op::minimum : Op::maximum;
+        return graph().apply(Op::divide, {operand(0), graph().apply(held, {operand(1), least})},
+                             old_.span(id_));
     }
 
     ExprId power()
@@ -180,12 +180,18 @@ private:
             x = at_least(0);
             base = {0, std::fmax(base.high, 0)};
         }
-        const Op op = is_safe_power(base, range(1)) ? Op::power : Op::guarded_power;
+        // The guard makes of 0^y the least normal float to the y: below half the least float that
+        // is nothing.
+        constexpr double vanishing = 150.0 / 126;
+        const bool was_bare = old_[id_].op == Op::power && is_safe_power(base, range(1));
+        const bool safe = was_bare || base.low > 0 || range(1).low >= vanishing;
+        const Op op = safe ? Op::power : Op::guarded_power;
         return graph().apply(op, {x, operand(1)}, old_.span(id_));
     }
 
     Rebuild& rebuild_;
     const Facts<Expr, Interval>& ranges_;
+    const Facts<Expr, Interval>& reals_;  ///< over the real numbers
     const Facts<Expr, bool>& guarded_divisions_;
     ExprId id_;
     const Graph& old_;
@@ -197,8 +203,11 @@ Step place_guards(Rebuild& rebuild)
     if (!any_expression(old.graph, [&](ExprId id) { return has_domain(old.graph[id].op); }))
         return {};
     auto ranges = evaluate::ranges(rebuild.old_module(), old, evaluate::declared_ranges(old));
-    return [&rebuild, ranges = std::move(ranges), divisions = guarded_divisions(old)](ExprId id) {
-        return Guard{rebuild, ranges, divisions, id}.guarded();
+    auto reals = evaluate::ranges(rebuild.old_module(), old, evaluate::declared_ranges(old),
+                                  evaluate::Arithmetic::reals);
+    return [&rebuild, ranges = std::move(ranges), reals = std::move(reals),
+            divisions = guarded_divisions(old)](ExprId id) {
+        return Guard{rebuild, ranges, reals, divisions, id}.guarded();
     };
 }
 

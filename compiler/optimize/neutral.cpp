@@ -170,7 +170,8 @@ std::optional<ExprId> Site::power()
     if (is(1, 0)) return literal(1);
     if (is(1, 1)) return operand(0);
     if (is(0, 1)) return literal(1);
-    if (is(0, 0) && range(1).low > 0) return literal(0);
+    // A guarded base of 0 is the least normal float; its tenth power is 0 in double.
+    if (is(0, 0) && range(1).low > (expr_.op == Op::power ? 0 : 10)) return literal(0);
     return std::nullopt;
 }
 
@@ -321,7 +322,7 @@ std::optional<ExprId> Site::identity()
     case Op::step: return clamp();
     case Op::lerp: return lerp();
     case Op::guarded_smoothstep:
-        // Where the edges are known to be reversed it is the step it was defined to be.
+        // Where the edges are known to be reversed it is a step, within the least divisor.
         if (range(1).high <= range(0).low && expr_.type == Type::scalar)
             return make(Op::select,
                         {make(Op::less, {operand(0), operand(2)}), literal(1), literal(0)});

@@ -1,11 +1,10 @@
 //% for vector in vectors
 #ifndef ${vector.guard}
 #define ${vector.guard}
-// v / |v|, and 0 where |v| is so small that its square is no normal number.
+// v / |v|, and 0 of 0: a square of |v| below the least normal number counts as that.
 ${vector.type} ${name}(${vector.type} v)
 {
-    ${scalar} length_squared = dot(v, v);
-    return length_squared >= ${least} ? v * inversesqrt(length_squared) : ${vector.type}(${zero});
+    return v * inversesqrt(max(dot(v, v), ${least}));
 }
 #endif
 //% end

@@ -1,10 +1,10 @@
 //% for scalar in scalars
 #ifndef ${scalar.guard}
 #define ${scalar.guard}
-// x^y for x >= 0, with 0^0 = 1 and 0^y = 0.
+// x^y for x >= 0, and 1 where y is 0: an x below the least normal number counts as that.
 ${scalar.type} ${name}(${scalar.type} x, ${scalar.type} y)
 {
-    return y == ${zero} ? ${one} : (x <= ${zero} ? ${zero} : pow(x, y));
+    return pow(max(x, ${least}), y);
 }
 #endif
 //% end

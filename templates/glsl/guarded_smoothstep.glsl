@@ -1,10 +1,11 @@
 //% for scalar in scalars
 #ifndef ${scalar.guard}
 #define ${scalar.guard}
-// smoothstep that is the step x > a where its edges meet or cross.
+// smoothstep; where its edges meet or cross it is the step x > a.
 ${scalar.type} ${name}(${scalar.type} a, ${scalar.type} b, ${scalar.type} x)
 {
-    return b > a ? smoothstep(a, b, x) : (x > a ? ${one} : ${zero});
+    ${scalar.type} t = clamp((x - a) / max(b - a, ${width}), ${zero}, ${one});
+    return t * t * (${three} - ${two} * t);
 }
 #endif
 //% end

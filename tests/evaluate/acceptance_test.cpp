@@ -83,8 +83,10 @@ TEST_CASE("a bare power at zero is undefined where its guarded twin is one")
     CHECK(apply_acceptance(Op::power, {0, 0}).undefined);
     CHECK(apply_acceptance(Op::power, {-0.25F, 2}).undefined);
     CHECK(apply_acceptance(Op::power, {0, 2}) == Acceptance{0, 0, false});
-    CHECK(apply_acceptance(Op::guarded_power, {0, 0}) == Acceptance{1, 1, false});
-    CHECK(apply_acceptance(Op::guarded_power, {-0.25F, 2}) == Acceptance{0, 0, false});
+    CHECK(accepts(apply_acceptance(Op::guarded_power, {0, 0}), 1));
+    CHECK_FALSE(apply_acceptance(Op::guarded_power, {0, 0}).undefined);
+    CHECK(accepts(apply_acceptance(Op::guarded_power, {-0.25F, 2}), 0));
+    CHECK_FALSE(apply_acceptance(Op::guarded_power, {-0.25F, 2}).undefined);
     // 2^-20 to the fourth: log2 off by 3 units of 16, times 4, and exp2 by 163 units.
     const Acceptance small = apply_acceptance(Op::power, {0x1p-20F, 4});
     CHECK(accepts(small, 0x1p-80));

@@ -61,7 +61,10 @@ TEST_CASE("ranges go through calls and are the hull over components")
     const Weighted weighted;
     const Function& blend = weighted.module.functions[1];
     const auto reals = ranges(weighted.module, blend, declared_ranges(blend), Arithmetic::reals);
-    CHECK(reals[weighted.called] == Interval{0, 1});
+    // 0^2.5 counts as (2^-126)^2.5.
+    CHECK(reals[weighted.called].low < 0x1p-314);
+    CHECK(reals[weighted.called].low > 0x1p-316);
+    CHECK(reals[weighted.called].high == 1);
     CHECK(reals[weighted.blended] == Interval{0, 256});
 
     std::vector<Interval> narrowed = declared_ranges(blend);

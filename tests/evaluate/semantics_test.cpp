@@ -25,7 +25,6 @@ constexpr double large = 0x1p100;
 // Exact in every format, so that every kind of number must give exactly this.
 const Case cases[] = {
     {Op::guarded_power, {0, 0}, 1},
-    {Op::guarded_power, {0, 2.5}, 0},
     {Op::guarded_power, {0.5, 0}, 1},
     {Op::guarded_power, {1, 0.375}, 1},
     {Op::guarded_smoothstep, {0.5, 0.5, 0.5}, 0},
@@ -120,6 +119,31 @@ TEST_CASE("normalize of zero is zero, of anything else has length one")
     CHECK(results[2] == std::vector<double>{3.0 / 5, 0, 4.0 / 5});
     const auto accepted = evaluate_acceptance(tape, evaluate::Precision::float32, {{0, 0, 0}})[0];
     for (const auto& component : accepted) CHECK(component == evaluate::Acceptance{0, 0, false});
+}
+
+TEST_CASE("a base below the least normal number counts as that")
+{
+    for (const double base : {0.0, -0.25, 0x1p-140}) {
+        CAPTURE(base);
+        const auto narrow = static_cast<float>(base);
+        CHECK(apply_float(Op::guarded_power, {narrow, 0}) == 1);
+        CHECK(apply_float(Op::guarded_power, {narrow, 2.5F}) == 0);  // 2^-315
+        CHECK(apply_double(Op::guarded_power, {base, 1.5}) ==
+              apply_double(Op::guarded_power, {0x1p-126, 1.5}));
+        CHECK(apply_half(Op::guarded_power, HalfMode::flush_denormals, {narrow, 0}) == 1);
+        CHECK(apply_half(Op::guarded_power, HalfMode::keep_denormals, {narrow, 0.5F}) == 0x1p-7F);
+        CHECK(apply_half(Op::guarded_power, HalfMode::keep_denormals, {narrow, 2.5F}) == 0);
+    }
+}
+
+TEST_CASE("the width of a smoothstep below what divides counts as that")
+{
+    CHECK(apply_double(Op::guarded_smoothstep, {0, 0, 0}) == 0);
+    CHECK(apply_double(Op::guarded_smoothstep, {0, 0, ir::least_divisor}) == 1);
+    CHECK(apply_double(Op::guarded_smoothstep, {0, 0, ir::least_divisor / 2}) == 0.5);
+    const auto flush = HalfMode::flush_denormals;
+    CHECK(apply_half(Op::guarded_smoothstep, flush, {0, 0, 0x1p-14F}) == 1);
+    CHECK(apply_half(Op::guarded_smoothstep, flush, {0, 0, 0}) == 0);
 }
 
 TEST_CASE("minimum, maximum, clamp and saturate of finite numbers are never NaN")

@@ -68,7 +68,7 @@ TEST_CASE("half exponents become products and a square root where the base is no
 {
     for (const char* exponent : {"0.5", "1.5", "2.5", "-0.5", "-1.5"}) {
         const bool negative = exponent[0] == '-';
-        const Module before = power_of(negative ? 0.25 : 0, 2, exponent);
+        const Module before = power_of(negative ? 0.25 : 0, 2, exponent, Op::power);
         const Module after = legalize(before);
         CAPTURE(exponent);
         REQUIRE_FALSE(verify(after));
@@ -85,12 +85,24 @@ TEST_CASE("half exponents become products and a square root where the base is no
     CHECK(count(legalize(power_of(0.5, 2, "-0.5")), Op::inverse_square_root) == 1);
 }
 
-TEST_CASE("other exponents stay powers, guarded where the base can be 0 and the exponent not be "
-          "positive")
+TEST_CASE("a half exponent makes of 0 what a guard makes of it, within a float")
+{
+    const Module before = power_of(0, 2, "2.5");
+    const Module after = legalize(before);
+    CHECK(count(after, Op::guarded_power) + count(after, Op::power) == 0);
+    CHECK(values(before, before.functions[0], Points<float>{{"x", {0}}}) ==
+          values(after, after.functions[0], Points<float>{{"x", {0}}}));
+}
+
+TEST_CASE("other exponents stay powers, guarded where the base can be 0 and the exponent too")
 {
     CHECK(count(legalize(power_of(0, 1, "2.2")), Op::power) == 1);
     CHECK(count(legalize(operation(Op::guarded_power, {{0.5, 1}, {-1, 1}})), Op::power) == 1);
-    CHECK(count(legalize(operation(Op::guarded_power, {{0, 1}, {0.5, 1}})), Op::power) == 1);
+    CHECK(count(legalize(operation(Op::guarded_power, {{0, 1}, {1.25, 2}})), Op::power) == 1);
+    CHECK(count(legalize(operation(Op::power, {{0, 1}, {0.5, 1}})), Op::power) == 1);
+    // 0^0.5 is what the guard makes it: 2^-63.
+    CHECK(count(legalize(operation(Op::guarded_power, {{0, 1}, {0.5, 1}})), Op::guarded_power) ==
+          1);
     // Callisto's falloff: exponent 0 is legal, and 0^0 is 1.
     CHECK(count(legalize(operation(Op::guarded_power, {{0, 1}, {0, 10}})), Op::guarded_power) == 1);
     // A bare power that was never safe gets its guard.
@@ -157,19 +169,22 @@ TEST_CASE("arguments that rounding could push out of a domain are held in it")
 
 TEST_CASE("a division is legal when its divisor is not 0, or a select takes the other arm there")
 {
-    const auto guarded = [](bool equal, bool swapped) {
+    const auto guarded = [](double low, bool of_size, bool swapped) {
         Term t{"term"};
-        const ExprId x = t.argument("x", 0, 1);
+        const ExprId x = t.argument("x", low, 1);
         const ExprId quotient = t.divide(t.number("1"), x);
-        const ExprId test = t.op(equal ? Op::equal : Op::not_equal, {x, t.number("0")});
+        const ExprId size = of_size ? t.op(Op::absolute, {x}) : x;
+        const ExprId least = t.function.graph.literal(least_divisor);
+        const ExprId test = t.op(Op::less_equal, {least, size});
         const ExprId limit = t.number("7");
-        return only(t, swapped ? t.op(Op::select, {test, quotient, limit})
-                               : t.op(Op::select, {test, limit, quotient}));
+        return only(t, swapped ? t.op(Op::select, {test, limit, quotient})
+                               : t.op(Op::select, {test, quotient, limit}));
     };
-    CHECK_FALSE(illegal(guarded(true, false)));
-    CHECK_FALSE(illegal(guarded(false, true)));
-    CHECK(illegal(guarded(true, true)));
-    CHECK(illegal(guarded(false, false)));
+    CHECK_FALSE(illegal(guarded(0, false, false)));
+    CHECK_FALSE(illegal(guarded(-1, false, false)));
+    CHECK_FALSE(illegal(guarded(-1, true, false)));
+    CHECK(illegal(guarded(0, false, true)));
+    CHECK(illegal(guarded(-1, true, true)));
     CHECK(illegal(operation(Op::divide, {{0, 1}, {0, 1}})));
     CHECK_FALSE(illegal(operation(Op::divide, {{0, 1}, {0.5, 1}})));
 
@@ -177,9 +192,30 @@ TEST_CASE("a division is legal when its divisor is not 0, or a select takes the 
     Term t{"term"};
     const ExprId x = t.argument("x", 0, 1);
     const ExprId quotient = t.divide(t.number("1"), x);
+    const ExprId least = t.function.graph.literal(least_divisor);
     const ExprId choice =
-        t.op(Op::select, {t.op(Op::equal, {x, t.number("0")}), t.number("7"), quotient});
+        t.op(Op::select, {t.op(Op::less_equal, {least, x}), quotient, t.number("7")});
     CHECK(illegal(only(t, t.add(choice, quotient))));
+}
+
+TEST_CASE("a divisor that only rounding brings to 0 is held on its side of it")
+{
+    // 1 - x^2 (1 - 2^-30) is 2^-30 at least, and in float may be 0.
+    const auto divided = [](bool negative) {
+        Term t{"term"};
+        const ExprId x = t.argument("x", 0, 1);
+        const ExprId one = t.number("1");
+        const ExprId part = t.multiply(t.multiply(x, x), t.function.graph.literal(1 - 0x1p-30));
+        return only(t, t.divide(one, negative ? t.subtract(part, one) : t.subtract(one, part)));
+    };
+    for (const bool negative : {false, true}) {
+        CHECK(illegal(divided(negative)));
+        const Module legal = legalize(divided(negative));
+        CHECK_FALSE(illegal(legal));
+        CHECK(count(legal, negative ? Op::minimum : Op::maximum) == 1);
+        const auto at_one = values(legal, legal.functions[0], Points<float>{{"x", {1}}});
+        CHECK(at_one[0] == (negative ? -0x1p126F : 0x1p126F));
+    }
 }
 
 TEST_CASE("legalizing keeps values and settles at once", "[property]")

@@ -72,8 +72,11 @@ inline ir::Module random_term(std::mt19937& random, int size)
         case 20: {  // a division with a limit
             const ir::ExprId divisor = small();
             const ir::ExprId quotient = term.divide(term.op(Op::negate, {small()}), divisor);
-            scalars.push_back(term.op(
-                Op::select, {term.op(Op::equal, {divisor, term.number("0")}), x(), quotient}));
+            scalars.push_back(
+                term.op(Op::select,
+                        {term.op(Op::less_equal, {term.function.graph.literal(ir::least_divisor),
+                                                  term.op(Op::absolute, {divisor})}),
+                         quotient, x()}));
             break;
         }
         case 21: scalars.push_back(term.subtract(term.number("1"), term.multiply(x(), x()))); break;

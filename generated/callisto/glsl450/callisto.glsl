@@ -10,29 +10,29 @@
 
 #ifndef LOBE_guarded_power_float
 #define LOBE_guarded_power_float
-// x^y for x >= 0, with 0^0 = 1 and 0^y = 0.
+// x^y for x >= 0, and 1 where y is 0: an x below the least normal number counts as that.
 float guarded_power(float x, float y)
 {
-    return y == 0.0 ? 1.0 : (x <= 0.0 ? 0.0 : pow(x, y));
+    return pow(max(x, 1.17549435e-38), y);
 }
 #endif
 
 #ifndef LOBE_guarded_smoothstep_float
 #define LOBE_guarded_smoothstep_float
-// smoothstep that is the step x > a where its edges meet or cross.
+// smoothstep; where its edges meet or cross it is the step x > a.
 float guarded_smoothstep(float a, float b, float x)
 {
-    return b > a ? smoothstep(a, b, x) : (x > a ? 1.0 : 0.0);
+    float t = clamp((x - a) / max(b - a, 5.421011e-20), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
 }
 #endif
 
 #ifndef LOBE_guarded_normalize_vec3
 #define LOBE_guarded_normalize_vec3
-// v / |v|, and 0 where |v| is so small that its square is no normal number.
+// v / |v|, and 0 of 0: a square of |v| below the least normal number counts as that.
 vec3 guarded_normalize(vec3 v)
 {
-    float length_squared = dot(v, v);
-    return length_squared >= 1.17549435e-38 ? v * inversesqrt(length_squared) : vec3(0.0);
+    return v * inversesqrt(max(dot(v, v), 1.17549435e-38));
 }
 #endif
 
@@ -172,7 +172,7 @@ vec3 proxima_cos(vec3 diffuse_color, float alpha, float NoL, float NoV, float Vo
 {
     float roughening = alpha * (1.0 - sqrt(max(-VoL, 0.0)));
     float brightness = NoL * (1.0 - 0.55 * roughening) + 0.19 * roughening;
-    return 0.0 < NoL && 0.0 < NoV ? diffuse_color / 3.1415927 * brightness : vec3(0.0);
+    return NoL > 0.0 && NoV > 0.0 ? diffuse_color / 3.1415927 * brightness : vec3(0.0);
 }
 
 // The same radiance in every direction.
@@ -193,7 +193,7 @@ vec3 Diffuse_Lambert(vec3 diffuse_color)
 // models/callisto.lobe:158
 vec3 lambert_cos(vec3 diffuse_color, float NoL, float NoV)
 {
-    return 0.0 < NoL && 0.0 < NoV ? Diffuse_Lambert(diffuse_color) * NoL : vec3(0.0);
+    return NoL > 0.0 && NoV > 0.0 ? Diffuse_Lambert(diffuse_color) * NoL : vec3(0.0);
 }
 
 // GGX (Trowbridge-Reitz) distribution: longer tails than Beckmann's.
@@ -271,7 +271,7 @@ vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, fl
     float dual_ggx_value = dual_ggx(roughness, NoL, NoV, NxH2, dual_specular_roughness_scale,
         dual_specular_opacity);
     vec3 t0 = dual_ggx_value * F_Callisto(f0, OneMinusVoH, specular_fresnel_falloff) * NoL;
-    return 0.0 < NoL && 0.0 < NoV ? t0 : vec3(0.0);
+    return NoL > 0.0 && NoV > 0.0 ? t0 : vec3(0.0);
 }
 
 // Callisto over Proxima.
@@ -446,7 +446,7 @@ CallistoResult callisto(vec3 l, vec3 v, vec3 n, CallistoSurface surface,
     float VoH = clamp(dot(l, h), 0.0, 1.0);
     float VoL = clamp(dot(v, l), -1.0, 1.0);
     vec3 n_cross_h = cross(n, h);
-    float NxH2 = 0.0 < n_dot_h ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
+    float NxH2 = n_dot_h > 0.0 ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
     float OneMinusNoH = clamp(NxH2 / (1.0 + NoH), 0.0, 1.0);
     vec3 l_minus_v = l - v;
     float OneMinusVoH = clamp(0.25 * dot(l_minus_v, l_minus_v) / (1.0 + VoH), 0.0, 1.0);
@@ -553,7 +553,7 @@ CallistoLambertResult callisto_lambert(vec3 l, vec3 v, vec3 n, CallistoLambertSu
     float NoH = clamp(n_dot_h, 0.0, 1.0);
     float VoH = clamp(dot(l, h), 0.0, 1.0);
     vec3 n_cross_h = cross(n, h);
-    float NxH2 = 0.0 < n_dot_h ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
+    float NxH2 = n_dot_h > 0.0 ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
     float OneMinusNoH = clamp(NxH2 / (1.0 + NoH), 0.0, 1.0);
     vec3 l_minus_v = l - v;
     float OneMinusVoH = clamp(0.25 * dot(l_minus_v, l_minus_v) / (1.0 + VoH), 0.0, 1.0);

@@ -10,29 +10,29 @@
 
 #ifndef LOBE_guarded_power_float
 #define LOBE_guarded_power_float
-// x^y for x >= 0, with 0^0 = 1 and 0^y = 0.
+// x^y for x >= 0, and 1 where y is 0: an x below the least normal number counts as that.
 float guarded_power(float x, float y)
 {
-    return y == 0.0 ? 1.0 : (x <= 0.0 ? 0.0 : pow(x, y));
+    return pow(max(x, 1.17549435e-38), y);
 }
 #endif
 
 #ifndef LOBE_guarded_smoothstep_float
 #define LOBE_guarded_smoothstep_float
-// smoothstep that is the step x > a where its edges meet or cross.
+// smoothstep; where its edges meet or cross it is the step x > a.
 float guarded_smoothstep(float a, float b, float x)
 {
-    return b > a ? smoothstep(a, b, x) : (x > a ? 1.0 : 0.0);
+    const float t = clamp((x - a) / max(b - a, 5.421011e-20), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
 }
 #endif
 
 #ifndef LOBE_guarded_normalize_float3
 #define LOBE_guarded_normalize_float3
-// v / |v|, and 0 where |v| is so small that its square is no normal number.
+// v / |v|, and 0 of 0: a square of |v| below the least normal number counts as that.
 float3 guarded_normalize(float3 v)
 {
-    const float length_squared = dot(v, v);
-    return length_squared >= 1.17549435e-38 ? v * rsqrt(length_squared) : (float3)0.0;
+    return v * rsqrt(max(dot(v, v), 1.17549435e-38));
 }
 #endif
 
@@ -175,7 +175,7 @@ float3 proxima_cos(float3 diffuse_color, float alpha, float NoL, float NoV, floa
     const float roughening = alpha * (1.0 - sqrt(max(-VoL, 0.0)));
     const float brightness = NoL * (1.0 - 0.55 * roughening) + 0.19 * roughening;
     const float3 t0 = diffuse_color / 3.1415927 * brightness;
-    return 0.0 < NoL && 0.0 < NoV ? t0 : (float3)0.0;
+    return NoL > 0.0 && NoV > 0.0 ? t0 : (float3)0.0;
 }
 
 // The same radiance in every direction.
@@ -196,7 +196,7 @@ float3 Diffuse_Lambert(float3 diffuse_color)
 // models/callisto.lobe:158
 float3 lambert_cos(float3 diffuse_color, float NoL, float NoV)
 {
-    return 0.0 < NoL && 0.0 < NoV ? Diffuse_Lambert(diffuse_color) * NoL : (float3)0.0;
+    return NoL > 0.0 && NoV > 0.0 ? Diffuse_Lambert(diffuse_color) * NoL : (float3)0.0;
 }
 
 // GGX (Trowbridge-Reitz) distribution: longer tails than Beckmann's.
@@ -275,7 +275,7 @@ float3 specular_cos(float3 f0, float roughness, float NoL, float NoV, float NxH2
     const float dual_ggx_value = dual_ggx(roughness, NoL, NoV, NxH2, dual_specular_roughness_scale,
         dual_specular_opacity);
     const float3 t0 = dual_ggx_value * F_Callisto(f0, OneMinusVoH, specular_fresnel_falloff) * NoL;
-    return 0.0 < NoL && 0.0 < NoV ? t0 : (float3)0.0;
+    return NoL > 0.0 && NoV > 0.0 ? t0 : (float3)0.0;
 }
 
 // Callisto over Proxima.
@@ -450,7 +450,7 @@ CallistoResult callisto(float3 l, float3 v, float3 n, CallistoSurface surface,
     const float VoH = saturate(dot(l, h));
     const float VoL = clamp(dot(v, l), -1.0, 1.0);
     const float3 n_cross_h = cross(n, h);
-    const float NxH2 = 0.0 < n_dot_h ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
+    const float NxH2 = n_dot_h > 0.0 ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
     const float OneMinusNoH = saturate(NxH2 / (1.0 + NoH));
     const float3 l_minus_v = l - v;
     const float OneMinusVoH = saturate(0.25 * dot(l_minus_v, l_minus_v) / (1.0 + VoH));
@@ -557,7 +557,7 @@ CallistoLambertResult callisto_lambert(float3 l, float3 v, float3 n, CallistoLam
     const float NoH = saturate(n_dot_h);
     const float VoH = saturate(dot(l, h));
     const float3 n_cross_h = cross(n, h);
-    const float NxH2 = 0.0 < n_dot_h ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
+    const float NxH2 = n_dot_h > 0.0 ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
     const float OneMinusNoH = saturate(NxH2 / (1.0 + NoH));
     const float3 l_minus_v = l - v;
     const float OneMinusVoH = saturate(0.25 * dot(l_minus_v, l_minus_v) / (1.0 + VoH));

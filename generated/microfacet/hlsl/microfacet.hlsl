@@ -10,10 +10,10 @@
 
 #ifndef LOBE_guarded_power_float
 #define LOBE_guarded_power_float
-// x^y for x >= 0, with 0^0 = 1 and 0^y = 0.
+// x^y for x >= 0, and 1 where y is 0: an x below the least normal number counts as that.
 float guarded_power(float x, float y)
 {
-    return y == 0.0 ? 1.0 : (x <= 0.0 ? 0.0 : pow(x, y));
+    return pow(max(x, 1.17549435e-38), y);
 }
 #endif
 
@@ -43,9 +43,9 @@ float D_Beckmann(float alpha, float NoH, float NxH2)
     const float NoH2 = NoH * NoH;
     const float alpha2 = alpha * alpha;
     const float t0 = alpha2 * NoH2;
-    const float exponent = t0 == 0.0 ? -1.0 : -NxH2 / t0;
+    const float exponent = t0 >= 5.421011e-20 ? -NxH2 / t0 : -1.0;
     const float t1 = 3.1415927 * alpha2 * (NoH2 * NoH2);
-    return t1 == 0.0 ? 0.0 : exp(exponent) / t1;
+    return t1 >= 5.421011e-20 ? exp(exponent) / t1 : 0.0;
 }
 
 // GGX (Trowbridge-Reitz) distribution: longer tails than Beckmann's.
@@ -100,7 +100,8 @@ float D_GGX_anisotropic(float alpha_x, float alpha_y, float NoH, float XoH, floa
     const float t0 = XoH * XoH / (alpha_x * alpha_x) + YoH * YoH / (alpha_y * alpha_y);
     const float stretched = t0 + NoH * NoH;
     const float stretched2 = stretched * stretched;
-    return stretched2 == 0.0 ? 0.0 : 1.0 / (3.1415927 * alpha_x * alpha_y) / stretched2;
+    const float t1 = 1.0 / (3.1415927 * alpha_x * alpha_y) / stretched2;
+    return stretched2 >= 5.421011e-20 ? t1 : 0.0;
 }
 
 // No shadowing beyond the cosines: V is 1/4.
@@ -121,7 +122,7 @@ float G_Implicit(float NoL, float NoV)
 float G_Neumann(float NoL, float NoV)
 {
     const float t0 = max(NoL, NoV);
-    return t0 == 0.0 ? 0.0 : NoL * NoV / t0;
+    return t0 >= 5.421011e-20 ? NoL * NoV / t0 : 0.0;
 }
 
 // V-shaped grooves.
@@ -134,9 +135,9 @@ float G_Neumann(float NoL, float NoV)
 float G_CookTorrance(float NoL, float NoV, float NoH, float VoH)
 {
     const float t0 = 2.0 * NoH;
-    const bool t1 = VoH == 0.0;
-    const float masked = t1 ? 2.0 : t0 * NoV / VoH;
-    const float shadowed = t1 ? 2.0 : t0 * NoL / VoH;
+    const bool t1 = VoH >= 5.421011e-20;
+    const float masked = t1 ? t0 * NoV / VoH : 2.0;
+    const float shadowed = t1 ? t0 * NoL / VoH : 2.0;
     return min(1.0, min(masked, shadowed));
 }
 
@@ -150,7 +151,7 @@ float G_CookTorrance(float NoL, float NoV, float NoH, float VoH)
 float G_Kelemen(float NoL, float NoV, float VoH)
 {
     const float VoH2 = VoH * VoH;
-    return VoH2 == 0.0 ? 1.0 : NoL * NoV / VoH2;
+    return VoH2 >= 5.421011e-20 ? NoL * NoV / VoH2 : 1.0;
 }
 
 // Smith masking for Beckmann's distribution, as a rational function of c = cot(theta) / alpha.
@@ -163,7 +164,7 @@ float G_Kelemen(float NoL, float NoV, float VoH)
 float G1_SmithBeckmann(float alpha, float cos_theta)
 {
     const float t0 = alpha * sqrt((1.0 - cos_theta) * (1.0 + cos_theta));
-    const float c = t0 == 0.0 ? 1.6 : cos_theta / t0;
+    const float c = t0 >= 5.421011e-20 ? cos_theta / t0 : 1.6;
     const float c2 = c * c;
     return c < 1.6 ? (3.535 * c + 2.181 * c2) / (1.0 + 2.276 * c + 2.577 * c2) : 1.0;
 }
@@ -332,7 +333,7 @@ float V_SmithGGXCorrelated(float alpha, float NoL, float NoV)
     const float i = NoV * sqrt(alpha2 + one_minus_alpha2 * (NoL * NoL));
     const float o = NoL * sqrt(alpha2 + one_minus_alpha2 * (NoV * NoV));
     const float t0 = i + o;
-    return t0 == 0.0 ? 0.0 : 0.5 / t0;
+    return t0 >= 5.421011e-20 ? 0.5 / t0 : 0.0;
 }
 
 // The correlated V without square roots: exact at alpha = 0 and alpha = 1.
@@ -343,7 +344,7 @@ float V_SmithGGXCorrelated(float alpha, float NoL, float NoV)
 float V_SmithJointApprox(float alpha, float NoL, float NoV)
 {
     const float t0 = lerp(2.0 * NoL * NoV, NoL + NoV, alpha);
-    return t0 == 0.0 ? 0.0 : 0.5 / t0;
+    return abs(t0) >= 5.421011e-20 ? 0.5 / t0 : 0.0;
 }
 
 // Schlick's masking and shadowing, fitted to GGX, with the microfacet denominator in it.
@@ -377,7 +378,7 @@ float V_SmithGGX_joint_approximation(float alpha, float NoL, float NoV)
     return V_SmithJointApprox(alpha, NoL, NoV);
 }
 
-// Without square roots and still separable: the same at alpha = 1. G is off by up to 0.27.
+// Without square roots and still separable: the same at alpha = 1. G is off by up to 0.28.
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = V_SchlickGGX(alpha, g)
 // Expects alpha in [0.000244140625, 1].
@@ -408,7 +409,7 @@ float V_SmithGGXCorrelated_joint_approximation(float alpha, float NoL, float NoV
     return V_SmithJointApprox(alpha, NoL, NoV);
 }
 
-// Without square roots, and separable. G is off by up to 0.27.
+// Without square roots, and separable. G is off by up to 0.28.
 // Karis13 eq 4: Karis 2013, Real Shading in Unreal Engine 4
 // = V_SchlickGGX(alpha, g)
 // Expects alpha in [0.000244140625, 1].
@@ -484,11 +485,11 @@ float F_dielectric(float f0, float VoH)
     const float c = contrast * VoH;
     const float t0 = 4.0 * s;
     const float sum = sqrt(t0 + c * c) + c;
-    const bool t1 = sum == 0.0;
-    const float difference = t1 ? 0.0 : t0 / sum;
-    const float amplitude = t1 ? 0.0 : difference / sum;
+    const bool t1 = abs(sum) >= 5.421011e-20;
+    const float difference = t1 ? t0 / sum : 0.0;
+    const float amplitude = t1 ? difference / sum : 0.0;
     const float t2 = difference * VoH + contrast;
-    const float polarization = t2 == 0.0 ? 1.0 : (sum * VoH - contrast) / t2;
+    const float polarization = abs(t2) >= 5.421011e-20 ? (sum * VoH - contrast) / t2 : 1.0;
     return 0.5 * (amplitude * amplitude) * (1.0 + polarization * polarization);
 }
 
@@ -602,7 +603,7 @@ float3 Diffuse_OrenNayar(float3 diffuse_color, float sigma, float NoL, float NoV
     const float a = 1.0 - 0.5 * sigma2 / (sigma2 + 0.33);
     const float b = 0.45 * sigma2 / (sigma2 + 0.09);
     const float t0 = max(NoL, NoV);
-    const float ratio = t0 == 0.0 ? 0.0 : max(VoL - NoL * NoV, 0.0) / t0;
+    const float ratio = t0 >= 5.421011e-20 ? max(VoL - NoL * NoV, 0.0) / t0 : 0.0;
     return diffuse_color / 3.1415927 * (a + b * ratio);
 }
 

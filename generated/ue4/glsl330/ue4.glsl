@@ -6,11 +6,10 @@
 
 #ifndef LOBE_guarded_normalize_vec3
 #define LOBE_guarded_normalize_vec3
-// v / |v|, and 0 where |v| is so small that its square is no normal number.
+// v / |v|, and 0 of 0: a square of |v| below the least normal number counts as that.
 vec3 guarded_normalize(vec3 v)
 {
-    float length_squared = dot(v, v);
-    return length_squared >= 1.17549435e-38 ? v * inversesqrt(length_squared) : vec3(0.0);
+    return v * inversesqrt(max(dot(v, v), 1.17549435e-38));
 }
 #endif
 
@@ -154,7 +153,7 @@ float D_GGX(float alpha, float NxH2)
 float V_SmithJointApprox(float alpha, float NoL, float NoV)
 {
     float t0 = mix(2.0 * NoL * NoV, NoL + NoV, alpha);
-    return t0 == 0.0 ? 0.0 : 0.5 / t0;
+    return abs(t0) >= 5.421011e-20 ? 0.5 / t0 : 0.0;
 }
 
 // Default lit: Lambert, GGX, the joint Smith approximation and the occluded Schlick term.
@@ -242,7 +241,7 @@ DefaultLitResult default_lit(vec3 l, vec3 v, vec3 n, DefaultLitSurface surface)
     float NoV = clamp(dot(n, v), 0.0, 1.0);
     vec3 h = guarded_normalize(l + v);
     vec3 n_cross_h = cross(n, h);
-    float NxH2 = 0.0 < dot(n, h) ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
+    float NxH2 = dot(n, h) > 0.0 ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
     vec3 l_minus_v = l - v;
     float t0 = 0.25 * dot(l_minus_v, l_minus_v) / (1.0 + clamp(dot(l, h), 0.0, 1.0));
     float OneMinusVoH = clamp(t0, 0.0, 1.0);
@@ -282,7 +281,7 @@ MobileResult mobile(vec3 l, vec3 v, vec3 n, MobileSurface surface)
     float NoL = clamp(dot(n, l), 0.0, 1.0);
     vec3 h = guarded_normalize(l + v);
     vec3 n_cross_h = cross(n, h);
-    float NxH2 = 0.0 < dot(n, h) ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
+    float NxH2 = dot(n, h) > 0.0 ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
     MobileResult result;
     result.diffuse = mobile_diffuse(NoL, surface.base_color, surface.metallic);
     result.specular = mobile_specular(NoL, NxH2, surface.base_color, surface.metallic,

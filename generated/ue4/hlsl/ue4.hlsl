@@ -6,11 +6,10 @@
 
 #ifndef LOBE_guarded_normalize_float3
 #define LOBE_guarded_normalize_float3
-// v / |v|, and 0 where |v| is so small that its square is no normal number.
+// v / |v|, and 0 of 0: a square of |v| below the least normal number counts as that.
 float3 guarded_normalize(float3 v)
 {
-    const float length_squared = dot(v, v);
-    return length_squared >= 1.17549435e-38 ? v * rsqrt(length_squared) : (float3)0.0;
+    return v * rsqrt(max(dot(v, v), 1.17549435e-38));
 }
 #endif
 
@@ -154,7 +153,7 @@ float D_GGX(float alpha, float NxH2)
 float V_SmithJointApprox(float alpha, float NoL, float NoV)
 {
     const float t0 = lerp(2.0 * NoL * NoV, NoL + NoV, alpha);
-    return t0 == 0.0 ? 0.0 : 0.5 / t0;
+    return abs(t0) >= 5.421011e-20 ? 0.5 / t0 : 0.0;
 }
 
 // Default lit: Lambert, GGX, the joint Smith approximation and the occluded Schlick term.
@@ -242,7 +241,7 @@ DefaultLitResult default_lit(float3 l, float3 v, float3 n, DefaultLitSurface sur
     const float NoV = saturate(dot(n, v));
     const float3 h = guarded_normalize(l + v);
     const float3 n_cross_h = cross(n, h);
-    const float NxH2 = 0.0 < dot(n, h) ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
+    const float NxH2 = dot(n, h) > 0.0 ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
     const float3 l_minus_v = l - v;
     const float OneMinusVoH = saturate(0.25 * dot(l_minus_v, l_minus_v)
         / (1.0 + saturate(dot(l, h))));
@@ -282,7 +281,7 @@ MobileResult mobile(float3 l, float3 v, float3 n, MobileSurface surface)
     const float NoL = saturate(dot(n, l));
     const float3 h = guarded_normalize(l + v);
     const float3 n_cross_h = cross(n, h);
-    const float NxH2 = 0.0 < dot(n, h) ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
+    const float NxH2 = dot(n, h) > 0.0 ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
     MobileResult result;
     result.diffuse = mobile_diffuse(NoL, surface.base_color, surface.metallic);
     result.specular = mobile_specular(NoL, NxH2, surface.base_color, surface.metallic,

@@ -6,10 +6,10 @@ precision highp float;
 
 #ifndef LOBE_guarded_power_float
 #define LOBE_guarded_power_float
-// x^y for x >= 0, with 0^0 = 1 and 0^y = 0.
+// x^y for x >= 0, and 1 where y is 0: an x below the least normal number counts as that.
 float guarded_power(float x, float y)
 {
-    return y == 0.0 ? 1.0 : (x <= 0.0 ? 0.0 : pow(x, y));
+    return pow(max(x, 1.17549435e-38), y);
 }
 #endif
 #ifndef LOBE_guarded_power_vec3

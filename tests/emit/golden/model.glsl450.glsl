@@ -5,11 +5,10 @@
 
 #ifndef LOBE_guarded_normalize_vec3
 #define LOBE_guarded_normalize_vec3
-// v / |v|, and 0 where |v| is so small that its square is no normal number.
+// v / |v|, and 0 of 0: a square of |v| below the least normal number counts as that.
 vec3 guarded_normalize(vec3 v)
 {
-    float length_squared = dot(v, v);
-    return length_squared >= 1.17549435e-38 ? v * inversesqrt(length_squared) : vec3(0.0);
+    return v * inversesqrt(max(dot(v, v), 1.17549435e-38));
 }
 #endif
 
