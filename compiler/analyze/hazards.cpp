@@ -155,6 +155,20 @@ std::vector<FunctionHazards> hazards(const ir::Module& checked, const Sources& s
         progress.what = checked[function].name;
         if (options.progress) options.progress(progress);
     });
+    if (options.costs) {
+        const ir::Module as_written = optimize::spell(checked, optimize::Spelling::as_written);
+        RemedyCosts costs{emitted, as_written};
+        for (std::size_t task = 0; task < out.size(); ++task) {
+            if (out[task].precision != Precision::float32) continue;
+            for (Hazard& hazard : out[task].naive)
+                if (hazard.remedy)
+                    costs.ask(functions[task / precisions.size()], hazard.span, *hazard.remedy);
+        }
+        CostOptions how;
+        how.jobs = options.jobs;
+        how.progress = options.progress;
+        costs.measure(sources, how, store);
+    }
     return out;
 }
 

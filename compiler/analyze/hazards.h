@@ -8,6 +8,7 @@
 #include "evaluate/run.h"
 #include "ir/module.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,9 +26,17 @@ std::string_view name(HazardKind kind);
 
 /// What the compiler does about it.
 struct Remedy {
+    enum class Kind : std::uint8_t {
+        guard,    ///< a condition or a bound around the operation
+        rule,     ///< another formula for it (optimize/rules.h)
+        products  ///< products and roots in place of a power
+    };
+
     std::string name;  ///< of a rule of optimize, or of a guard: `blend_h`, `guarded power`
     std::string text;  ///< `a + (1 - a) sin2_h`
-    std::optional<std::array<double, all_families.size()>> cycles;  ///< issue cycles it adds
+    std::optional<std::array<double, all_families.size()>>
+        cycles;  ///< issue cycles that it adds, from vectors
+    Kind kind{};
 };
 
 struct Hazard {

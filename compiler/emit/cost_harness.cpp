@@ -95,6 +95,7 @@ private:
             frame.x = vector(ir::GeometryField::x);
             frame.y = vector(ir::GeometryField::y);
         }
+        frame.bare = module_.bare_geometry;
         return ir::expand(text_.graph, field, frame);
     }
 
