@@ -13,16 +13,20 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int fine_order = 8;
 constexpr int coarse_order = fine_order / 2;
+/// What more nodes are spent for, and how many: no promise, as the integral says how sure it is.
+constexpr double wanted = 0x1p-16;
+constexpr std::size_t most_nodes = std::size_t{1} << 16;
 constexpr std::size_t batch_size = std::size_t{1} << 17;
 
-std::vector<DirectionNode> nodes_of(const EntryInputs& inputs, const HemisphereJob& job, int order)
+std::vector<DirectionNode> nodes_of(const EntryInputs& inputs, const HemisphereJob& job,
+                                    Fineness fineness)
 {
     using Over = HemisphereJob::Over;
     switch (job.over) {
     case Over::light:
         return light_nodes(job.cos_view, std::min(job.alpha_x, job.alpha_y), !inputs.has_tangents(),
-                           order);
-    case Over::facets: return facet_nodes(job.alpha_x, job.alpha_y, order);
+                           fineness);
+    case Over::facets: return facet_nodes(job.alpha_x, job.alpha_y, fineness);
     case Over::nothing: break;
     }
     return {{{0, 0, 1}, 1}};
@@ -57,6 +61,40 @@ std::vector<double> sums(std::span<const DirectionNode> nodes, const ResultColum
     return out;
 }
 
+/// A job's nodes, and its integral by the definition.
+struct Prepared {
+    std::vector<DirectionNode> nodes;
+    std::vector<double> exact;  ///< by component
+    std::size_t component = 0;  ///< that gives most
+    double uncertainty = 0;     ///< its difference to half the order
+    int parts = 1;
+};
+
+std::vector<double> exact_sums(const EmittedFunction& function, const HemisphereJob& job,
+                               std::span<const DirectionNode> nodes)
+{
+    EmittedFunction::Batch points{function.inputs().columns()};
+    add_points(function.inputs(), job, nodes, points);
+    return sums(nodes, function.exact(points), 0);
+}
+
+Prepared prepare(const EmittedFunction& function, const HemisphereJob& job)
+{
+    Prepared out;
+    for (;; out.parts *= 2) {
+        const EntryInputs& inputs = function.inputs();
+        out.nodes = nodes_of(inputs, job, {fine_order, out.parts});
+        out.exact = exact_sums(function, job, out.nodes);
+        out.component =
+            static_cast<std::size_t>(std::ranges::max_element(out.exact) - out.exact.begin());
+        const auto coarse = nodes_of(inputs, job, {coarse_order, out.parts});
+        const double exact = out.exact[out.component];
+        out.uncertainty = std::abs(exact - exact_sums(function, job, coarse)[out.component]);
+        const bool enough = out.uncertainty <= wanted * std::abs(exact);
+        if (enough || 4 * out.nodes.size() > most_nodes) return out;
+    }
+}
+
 /// Jobs whose points are evaluated together.
 class BatchOfJobs {
 public:
@@ -67,11 +105,8 @@ public:
 
     void add(const HemisphereJob& job)
     {
-        const EntryInputs& inputs = function_.inputs();
-        fine_.push_back(nodes_of(inputs, job, fine_order));
-        coarse_.push_back(nodes_of(inputs, job, coarse_order));
-        add_points(inputs, job, fine_.back(), points_);
-        add_points(inputs, job, coarse_.back(), coarse_points_);
+        jobs_.push_back(prepare(function_, job));
+        add_points(function_.inputs(), job, jobs_.back().nodes, points_);
     }
 
     bool full() const { return points_.size() >= batch_size; }
@@ -80,25 +115,18 @@ public:
     {
         ResultColumns emitted;
         if (std::string why = function_.emitted(points_, emitted); !why.empty()) return why;
-        const ResultColumns exact = function_.exact(points_);
         const ResultColumns at_floats = function_.exact_at_floats(points_);
-        const ResultColumns coarse = function_.exact(coarse_points_);
-        std::size_t first = 0, coarse_first = 0;
-        for (std::size_t job = 0; job < fine_.size(); ++job) {
-            const std::vector<double> exacts = sums(fine_[job], exact, first);
-            const auto k =
-                static_cast<std::size_t>(std::ranges::max_element(exacts) - exacts.begin());
+        std::size_t first = 0;
+        for (const Prepared& job : jobs_) {
             HemisphereIntegral& integral = out_.emplace_back();
-            integral.exact = exacts[k];
-            integral.value = sum(fine_[job], emitted[k], first);
-            const double halved = sum(coarse_[job], coarse[k], coarse_first);
-            const double rounded = sum(fine_[job], at_floats[k], first);
+            integral.exact = job.exact[job.component];
+            integral.value = sum(job.nodes, emitted[job.component], first);
+            const double rounded = sum(job.nodes, at_floats[job.component], first);
             // The sums are of as many doubles as there are nodes.
-            const double summed = static_cast<double>(fine_[job].size()) * 0x1p-53 * exacts[k];
-            integral.uncertainty = std::abs(integral.exact - halved) +
-                                   std::abs(rounded - integral.exact) + std::abs(summed);
-            first += fine_[job].size();
-            coarse_first += coarse_[job].size();
+            const double summed = static_cast<double>(job.nodes.size()) * 0x1p-53 * integral.exact;
+            integral.uncertainty =
+                job.uncertainty + std::abs(rounded - integral.exact) + std::abs(summed);
+            first += job.nodes.size();
         }
         return {};
     }
@@ -106,22 +134,26 @@ public:
 private:
     EmittedFunction& function_;
     std::vector<HemisphereIntegral>& out_;
-    std::vector<std::vector<DirectionNode>> fine_, coarse_;
+    std::vector<Prepared> jobs_;
     EmittedFunction::Batch points_{function_.inputs().columns()};
-    EmittedFunction::Batch coarse_points_{function_.inputs().columns()};
 };
 
 }  // namespace
 
-std::vector<DirectionNode> light_nodes(double cos_view, double alpha, bool symmetric, int order)
+std::vector<DirectionNode> light_nodes(double cos_view, double alpha, bool symmetric,
+                                       Fineness fineness)
 {
     const double view = std::acos(cos_view);
     const double finest = std::max(alpha / 4, 0x1p-16);
     // v.l = 0 meets the horizon at a right angle to v; its circle ends at pi/2 - view.
     const std::array polar{NarrowPlace{view, finest}, NarrowPlace{pi / 2, finest},
                            NarrowPlace{pi / 2 - view, 0x1p-6}};
+    const auto nodes = [&](double high, std::span<const NarrowPlace> places) {
+        return gauss_legendre(divided(graded_cells(0, high, places), fineness.parts),
+                              fineness.order);
+    };
     std::vector<DirectionNode> out;
-    for (const QuadratureNode& theta : gauss_legendre(graded_cells(0, pi / 2, polar), order)) {
+    for (const QuadratureNode& theta : nodes(pi / 2, polar)) {
         const double sine = std::sin(theta.at), cosine = std::cos(theta.at);
         // A half vector tilted sideways by some angle turns the light by twice that times v.h.
         const double near =
@@ -129,7 +161,7 @@ std::vector<DirectionNode> light_nodes(double cos_view, double alpha, bool symme
         std::vector<NarrowPlace> around{{pi, near / std::max(sine, near / pi)}};
         const double across = -cosine * cos_view / (sine * std::sin(view));
         if (std::abs(across) < 1) around.push_back({std::acos(across), 0x1p-6});
-        for (const QuadratureNode& phi : gauss_legendre(graded_cells(0, pi, around), order)) {
+        for (const QuadratureNode& phi : nodes(pi, around)) {
             const double weight = theta.weight * sine * phi.weight;
             const double x = sine * std::cos(phi.at), y = sine * std::sin(phi.at);
             // Without a tangent frame both sides of the plane of view are alike.
@@ -140,12 +172,13 @@ std::vector<DirectionNode> light_nodes(double cos_view, double alpha, bool symme
     return out;
 }
 
-std::vector<DirectionNode> facet_nodes(double alpha_x, double alpha_y, int order)
+std::vector<DirectionNode> facet_nodes(double alpha_x, double alpha_y, Fineness fineness)
 {
     const std::array ends{NarrowPlace{0, 0x1p-4}, NarrowPlace{1, 0x1p-10}};
-    const int azimuths = 4 * order;
+    const int azimuths = 4 * fineness.order * fineness.parts;
+    const std::vector<double> cells = divided(graded_cells(0, 1, ends), fineness.parts);
     std::vector<DirectionNode> out;
-    for (const QuadratureNode& u : gauss_legendre(graded_cells(0, 1, ends), order)) {
+    for (const QuadratureNode& u : gauss_legendre(cells, fineness.order)) {
         const double r = std::sqrt(u.at / (1 - u.at));
         for (int i = 0; i < azimuths; ++i) {
             const double phi = 2 * pi * (i + 0.5) / azimuths;
@@ -174,10 +207,10 @@ std::string integrate(EmittedFunction& function, std::span<const HemisphereJob> 
 
 double allowed_error(const EmittedFunction& function, const HemisphereJob& job)
 {
-    const std::vector<DirectionNode> nodes = nodes_of(function.inputs(), job, fine_order);
+    const Prepared prepared = prepare(function, job);
     EmittedFunction::Batch batch{function.inputs().columns()};
-    add_points(function.inputs(), job, nodes, batch);
-    return std::ranges::max(sums(nodes, function.allowed(batch), 0));
+    add_points(function.inputs(), job, prepared.nodes, batch);
+    return std::ranges::max(sums(prepared.nodes, function.allowed(batch), 0));
 }
 
 }  // namespace lobe::analyze

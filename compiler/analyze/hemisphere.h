@@ -22,10 +22,17 @@ struct DirectionNode {
     double weight = 0;
 };
 
+/// How many nodes: `order` in a cell, cells in `parts`.
+struct Fineness {
+    int order = 8;
+    int parts = 1;
+};
+
 /// For integrals over light seen from (sin, 0, cos): of functions as narrow as alpha.
-std::vector<DirectionNode> light_nodes(double cos_view, double alpha, bool symmetric, int order);
+std::vector<DirectionNode> light_nodes(double cos_view, double alpha, bool symmetric,
+                                       Fineness fineness);
 /// For integrals of D cos over half vectors; the weights have the cosine.
-std::vector<DirectionNode> facet_nodes(double alpha_x, double alpha_y, int order);
+std::vector<DirectionNode> facet_nodes(double alpha_x, double alpha_y, Fineness fineness);
 
 struct HemisphereJob {
     enum class Over {
@@ -47,7 +54,8 @@ struct HemisphereIntegral {
     double uncertainty = 0;  ///< of the quadrature: with half the order, and nodes as floats
 };
 
-/// One integral per job. Why it could not run, or empty.
+/// One integral per job, with as many nodes as it takes for about five digits, within reason. Why
+/// it could not run, or empty.
 std::string integrate(EmittedFunction& function, std::span<const HemisphereJob> jobs,
                       std::vector<HemisphereIntegral>& out);
 

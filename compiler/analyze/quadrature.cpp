@@ -65,4 +65,14 @@ std::vector<double> graded_cells(double low, double high, std::span<const Narrow
     return out;
 }
 
+std::vector<double> divided(std::span<const double> ends, int parts)
+{
+    std::vector<double> out;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+        for (int part = 0; part < parts; ++part)
+            out.push_back(ends[i] + (ends[i + 1] - ends[i]) * part / parts);
+    if (!ends.empty()) out.push_back(ends.back());
+    return out;
+}
+
 }  // namespace lobe::analyze

@@ -25,4 +25,7 @@ struct NarrowPlace {
 };
 std::vector<double> graded_cells(double low, double high, std::span<const NarrowPlace> points);
 
+/// The same cells in this many equal parts each.
+std::vector<double> divided(std::span<const double> ends, int parts);
+
 }  // namespace lobe::analyze
