@@ -49,7 +49,7 @@ private:
     std::string binary(std::size_t level)
     {
         static const std::vector<std::vector<std::string>> levels{
-            {"||"}, {"&&"}, {"==", "!="}, {"<=", "<"}, {"+", "-"}, {"*", "/"}};
+            {"||"}, {"&&"}, {"==", "!="}, {"<=", "<", ">=", ">"}, {"+", "-"}, {"*", "/"}};
         if (level == levels.size()) return unary();
         std::string left = binary(level + 1);
         for (;;) {
@@ -57,7 +57,13 @@ private:
             for (const std::string& word : levels[level])
                 if (taken.empty() && take(word)) taken = word;
             if (taken.empty()) return left;
-            left = infix(left, taken, binary(level + 1));
+            std::string right = binary(level + 1);
+            // A comparison has one meaning, whichever side its literal is written on.
+            if (taken.front() == '>') {
+                taken.front() = '<';
+                std::swap(left, right);
+            }
+            left = infix(left, taken, right);
         }
     }
 
@@ -110,7 +116,7 @@ private:
         skip();
         if (text_.compare(at_, word.size(), word) != 0) return false;
         // `<` is not the start of `<=`.
-        if (word == "<" && text_.compare(at_, 2, "<=") == 0) return false;
+        if ((word == "<" || word == ">") && text_.compare(at_, 2, word + "=") == 0) return false;
         at_ += word.size();
         return true;
     }
