@@ -47,7 +47,7 @@ ir::Module load(const std::string& name)
 TEST_CASE("the proved range of every function holds at every point tried", "[check][models]")
 {
     constexpr std::size_t count = 2000;
-    for (const std::string name : {"microfacet", "callisto", "ue4"}) {
+    for (const std::string name : {"microfacet", "callisto", "ue4", "environment"}) {
         const ir::Module module = load(name);
         for (const ir::Function& function : module.functions) {
             CAPTURE(name, function.name, function.range.low, function.range.high);

@@ -228,7 +228,7 @@ TEST_CASE("random trees survive format and parse")
 
 TEST_CASE("the models survive format and parse")
 {
-    for (const char* name : {"microfacet", "callisto", "ue4", "ue4_gbuffer"}) {
+    for (const char* name : {"microfacet", "callisto", "ue4", "ue4_gbuffer", "environment"}) {
         CAPTURE(name);
         std::ifstream file(fmt::format("../models/{}.lobe", name));
         std::stringstream text;
