@@ -39,9 +39,8 @@ Points<Real> points_for(const Module& module, const Function& entry)
 
 TEST_CASE("every shipped model is legal, settled and unchanged over the real numbers")
 {
-    for (const char* path :
-         {"../models/microfacet.lobe", "../models/callisto.lobe", "../models/ue4.lobe",
-          "../models/environment.lobe"}) {
+    for (const char* path : {"../models/microfacet.lobe", "../models/callisto.lobe",
+                             "../models/ue4.lobe", "../models/environment.lobe"}) {
         CAPTURE(path);
         const Module module = read_model(path);
         const Module optimized = optimize::optimize(module);
