@@ -16,13 +16,15 @@ namespace {
 
 using Values = EntryInputs::Values;
 
-/// Double sees the way as far as this; what it cannot tell from a jump goes on to MPFR.
-constexpr int near = 48;
+/// Distances of 2^-k along a way.
 constexpr int farthest = 2;
 constexpr int nearest = 96;
 constexpr int stride = 2;
-/// A difference below this part of the scale at a distance of 2^-48 is no jump that matters: it
-/// is what a slope of 2^8 leaves, and the roundings of double.
+
+/// Double looks from here; what it cannot tell from a jump goes on to MPFR.
+constexpr int near = 48;
+/// A difference below this part of the greatest value is no jump: it is what a slope of 2^8 leaves
+/// at that distance, and the roundings of double.
 constexpr double visible = 0x1p-40;
 
 /// Many points at once, in double; the greatest component counts.
@@ -90,7 +92,7 @@ public:
     /// All that the rows depend on.
     std::string key() const
     {
-        std::string key = "continuity 1\n" + inputs_.entry().name + "\n" + evaluate::dump(tape_);
+        std::string key = "continuity 3\n" + inputs_.entry().name + "\n" + evaluate::dump(tape_);
         for (const Scalar& scalar : inputs_.scalars())
             write_line(key, scalar.low, scalar.high, scalar.neutral, scalar.parameter);
         for (const ir::Effect& effect : module_.effects)
@@ -144,20 +146,21 @@ private:
         std::optional<Crossing> where;
         const auto try_crossing = [&](const Crossing& crossing) {
             const Limits limit = limits(tape_, crossing);
-            if (limit.jump <= found.jump) return;
+            if (limit.jump <= std::max(found.jump, visible * std::max(scale, limit.scale))) return;
             found = limit;
             where = crossing;
         };
-        if (widest->gap > visible * widest->scale)
+        if (widest->gap > visible * scale)
             try_crossing(climb(crossing_of(widest), boundary.value, parameters));
-        if (sharpest->spike > visible * sharpest->scale) try_crossing(crossing_of(sharpest));
+        if (sharpest->spike > visible * scale) try_crossing(crossing_of(sharpest));
 
         std::string at;
         if (where) {
             at = inputs_.describe(where->at);
-            scale = found.scale;
+            scale = std::max(scale, found.scale);
             if (found.distance != 0)
                 at += fmt::format("; a guard switches {:.4g} away", std::abs(found.distance));
+            if (found.within != 0) at += fmt::format("; a ramp within {:.2g}", found.within);
         }
         write_line(text, inputs_.entry().name, fmt::format("{}{}", boundary.name, suffix),
                    found.jump, scale, found.jump == 0, at);
@@ -167,26 +170,21 @@ private:
     {
         sampler_.clear();
         for (const Crossing& crossing : crossings) {
-            sampler_.add(crossing, 0);
-            for (const double side : {1.0, -1.0}) {
-                sampler_.add(crossing, exists(crossing, side) ? std::ldexp(side, -near) : 0);
-                for (int k = farthest; k <= nearest; k += stride)
-                    sampler_.add(crossing, exists(crossing, side) ? std::ldexp(side, -k) : 0);
-            }
+            add_look(crossing);
+            for (const double side : {1.0, -1.0})
+                for (int k = farthest; k <= nearest; k += stride) add(crossing, side, k);
         }
         sampler_.run();
         constexpr std::size_t along = (nearest - farthest) / stride + 1;
         std::vector<Glance> out(crossings.size());
         for (std::size_t i = 0; i < crossings.size(); ++i) {
+            const std::size_t at = i * (2 * along + look_points);
             Glance& glance = out[i];
-            const std::size_t at = i * (2 * along + 3);
-            const std::size_t after = at + 1, before = after + along + 1;
-            glance.gap = gap_of(at, after, before);
-            glance.scale =
-                std::max(sampler_.size(at), std::max(sampler_.size(after), sampler_.size(before)));
-            for (const std::size_t side : {after, before}) {
+            glance.gap = gap_at(at);
+            glance.flat = glance.gap == 0;
+            for (const std::size_t side : {at + look_points, at + look_points + along}) {
                 double previous = HUGE_VAL;
-                for (std::size_t k = side + 1; k < side + along; ++k) {
+                for (std::size_t k = side; k + 1 < side + along; ++k) {
                     const double change = sampler_.difference(k, k + 1);
                     glance.flat &= change == 0;
                     glance.scale = std::max(glance.scale, sampler_.size(k));
@@ -194,30 +192,39 @@ private:
                     previous = change;
                 }
             }
-            glance.flat &= glance.gap == 0;
         }
         return out;
     }
 
-    static bool exists(const Crossing& crossing, double side)
+    /// A point at a distance of 2^-k on one side; on the boundary where there is no such side.
+    void add(const Crossing& crossing, double side, int k)
     {
-        return side > 0 ? crossing.after : crossing.before;
+        const bool exists = side > 0 ? crossing.after : crossing.before;
+        sampler_.add(crossing, exists ? std::ldexp(side, -k) : 0);
     }
 
-    double gap_of(std::size_t at, std::size_t after, std::size_t before) const
+    /// The boundary and both sides, near it.
+    static constexpr std::size_t look_points = 3;
+    void add_look(const Crossing& crossing)
     {
-        return std::max({sampler_.difference(at, after), sampler_.difference(at, before),
-                         sampler_.difference(after, before)});
+        sampler_.add(crossing, 0);
+        for (const double side : {1.0, -1.0}) add(crossing, side, near);
+    }
+
+    /// The greatest difference among the points of `add_look`, which begin at `first`.
+    double gap_at(std::size_t first) const
+    {
+        return std::max({sampler_.difference(first, first + 1),
+                         sampler_.difference(first, first + 2),
+                         sampler_.difference(first + 1, first + 2)});
     }
 
     double gap_of(const Crossing& crossing)
     {
         sampler_.clear();
-        for (const double side : {0.0, 1.0, -1.0})
-            sampler_.add(crossing,
-                         side == 0 || exists(crossing, side) ? std::ldexp(side, -near) : 0);
+        add_look(crossing);
         sampler_.run();
-        return gap_of(0, 1, 2);
+        return gap_at(0);
     }
 
     /// The crossing with the values, one after the other, where the gap is greatest.

@@ -43,6 +43,8 @@ struct Limits {
     double scale = 0;  ///< greatest magnitude met
     /// Where it jumps: 0 on the boundary. Elsewhere it is where a guard switches, on the way.
     double distance = 0;
+    /// Not 0: it is no jump, but a ramp that is over within this distance.
+    double within = 0;
 };
 Limits limits(const evaluate::Tape& tape, const Crossing& crossing);
 

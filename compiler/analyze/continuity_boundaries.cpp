@@ -18,8 +18,8 @@ using Values = EntryInputs::Values;
 /// Settings of the values per pair of directions.
 constexpr std::size_t settings = 24;
 
-/// Light and view on a boundary, and how they move across it. The vectors need not be unit
-/// vectors to the last bit: only limits are asked for, and those are of vectors that are.
+/// Light and view on a boundary, and how they move across it: to first order as unit vectors do,
+/// which is all that a limit sees.
 struct Way {
     Directional at;
     Vector l, v;  ///< what a distance of 1 adds
@@ -33,6 +33,15 @@ Vector operator-(const Vector& a) { return {-a.x, -a.y, -a.z}; }
 Way way(const Vector& l, const Vector& v, const Vector& move_l, const Vector& move_v = none)
 {
     return {{{}, l, v}, move_l, move_v};
+}
+
+/// What is left of a move that turns a direction and does not stretch it: at l = -v the half vector
+/// is all that remains, and would be the stretching.
+Vector turning(const Vector& direction, const Vector& move)
+{
+    const double along = direction.x * move.x + direction.y * move.y + direction.z * move.z;
+    return {move.x - along * direction.x, move.y - along * direction.y,
+            move.z - along * direction.z};
 }
 
 /// Above the horizon, in general and special position; unit vectors by Pythagoras.
@@ -87,9 +96,10 @@ std::vector<NamedWays> geometry_ways()
     auto& mirrored = add("h = n");
     for (const Vector& l : some_directions)
         for (const Vector& move : {Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{.48, .64, -.6}}) {
-            equal.push_back(way(l, l, none, move));
-            opposed.push_back(way(l, -l, none, move));
-            mirrored.push_back(way(l, {-l.x, -l.y, l.z}, none, move));
+            equal.push_back(way(l, l, none, turning(l, move)));
+            opposed.push_back(way(l, -l, none, turning(l, move)));
+            const Vector mirror{-l.x, -l.y, l.z};
+            mirrored.push_back(way(l, mirror, none, turning(mirror, move)));
         }
     for (const Vector& l : horizon) opposed.push_back(way(l, -l, none, up));
     auto& light_up = add("l = n");

@@ -6,6 +6,7 @@
 #include "analyze/continuity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,7 +18,15 @@ using evaluate::Real;
 constexpr int bits = 256;    // distances of 2^-96, and as much again for their squares
 constexpr int nearest = 96;  // beyond 2^-64, which `else` counts as 0
 constexpr int farthest = 2;
-constexpr int steps = 12;  // between the three that are extrapolated
+
+/// Three distances that are extrapolated: 2^-last, and that many halvings before it, twice. A ramp
+/// that a guard puts in place of a jump (a length below 2^-64 counts as that) is seen from afar as
+/// the jump that it stands for, and from nearest as what it is.
+struct Window {
+    int last = 0;
+    int steps = 0;
+};
+constexpr std::array windows{Window{nearest, 12}, Window{56, 8}};
 
 /// Below this part of the scale a difference is rounding: 2^-256, with much to spare.
 constexpr double rounding = 0x1p-200;
@@ -72,7 +81,7 @@ double difference(const std::vector<Real>& a, const std::vector<Real>& b)
     return greatest;
 }
 
-/// The limit of a sequence of differences, `steps` halvings apart: 0 where it falls.
+/// The limit of a sequence of differences at distances of constant ratio: 0 where it falls.
 double limit_of(double first, double second, double third, double scale)
 {
     if (!std::isfinite(third)) return third;
@@ -85,11 +94,11 @@ double limit_of(double first, double second, double third, double scale)
 }
 
 /// How two ways to the boundary differ in the limit. Distance 0 is the boundary itself.
-double jump_between(Line& line, double one, double other)
+double jump_between(Line& line, const Window& window, double one, double other)
 {
     std::array<double, 3> differences{};
     for (int i = 0; i < 3; ++i) {
-        const double distance = std::ldexp(1.0, -(nearest - (2 - i) * steps));
+        const double distance = std::ldexp(1.0, -(window.last - (2 - i) * window.steps));
         differences[static_cast<std::size_t>(i)] =
             difference(line(one * distance), line(other * distance));
     }
@@ -153,19 +162,20 @@ Limits limits(const evaluate::Tape& tape, const Crossing& crossing)
 {
     Line line{tape, crossing};
     Limits out;
-    const auto take = [&](double jump, double distance) {
-        if (jump > out.jump) {
-            out.jump = jump;
-            out.distance = distance;
-        }
+    const auto take = [&](double jump, double distance, double within) {
+        // What is seen from nearby needs more to outdo it than the roundings of an extrapolation.
+        if (jump > out.jump * (1 + 0x1p-20)) out = {jump, out.scale, distance, within};
     };
-    if (crossing.after) take(jump_between(line, 1, 0), 0);
-    if (crossing.before) take(jump_between(line, -1, 0), 0);
-    if (crossing.after && crossing.before) take(jump_between(line, 1, -1), 0);
+    for (const Window& window : windows) {
+        const double within = window.last == nearest ? 0 : std::ldexp(1.0, -window.last);
+        if (crossing.after) take(jump_between(line, window, 1, 0), 0, within);
+        if (crossing.before) take(jump_between(line, window, -1, 0), 0, within);
+        if (crossing.after && crossing.before) take(jump_between(line, window, 1, -1), 0, within);
+    }
     for (const double side : {1.0, -1.0})
         if (side > 0 ? crossing.after : crossing.before) {
             const Switch found = find_switch(line, side);
-            take(found.jump, found.distance);
+            take(found.jump, found.distance, 0);
         }
     out.scale = line.scale();
     return out;

@@ -33,6 +33,13 @@ analyze::Limits limits_of(const Build& build)
     return analyze::limits(evaluate::compile(module, module.functions.front()), {{0}, {1}});
 }
 
+/// alpha_s for v = n and l on the horizon: both half angles are 45 degrees.
+double mask_at_the_horizon()
+{
+    const double side = 1 - std::pow(1 - std::sqrt(0.5), 3);
+    return side * side;
+}
+
 const std::vector<Continuity>& rows_of(const std::string& model)
 {
     static std::map<std::string, std::vector<Continuity>> known;
@@ -110,6 +117,18 @@ TEST_CASE("a guard that switches on the way is found where it does", "[continuit
     CHECK(std::abs(std::abs(away.distance) - 0x1p-40) <= 0x1p-90);
 }
 
+TEST_CASE("a ramp of a guard is the jump that it stands for", "[continuity]")
+{
+    const analyze::Limits limits = limits_of([](FunctionBuilder& f, ir::ExprId x) {
+        const auto size = f(Op::maximum, {f(Op::absolute, {x}), f.function.graph.literal(0x1p-64)});
+        return f(Op::divide, {x, size});
+    });
+    CHECK(limits.jump == 2);  // from -1 to 1
+    CHECK(limits.distance == 0);
+    CHECK(limits.within > 0);
+    CHECK(limits.within <= 0x1p-50);
+}
+
 TEST_CASE("what grows without bound is no continuous function", "[continuity]")
 {
     const analyze::Limits limits = limits_of([](FunctionBuilder& f, ir::ExprId x) {
@@ -151,9 +170,7 @@ TEST_CASE("the smooth terminator cuts Proxima's jump to 5 %", "[continuity][ship
     const analyze::Limits without = analyze::limits(tape, crossing);
     analyze::EntryInputs::set(crossing.at, *inputs.find("smooth_terminator"), 1);
     const analyze::Limits with = analyze::limits(tape, crossing);
-    // alpha_s for v = n, l on the horizon: both half angles are 45 degrees.
-    const double side = 1 - std::pow(1 - std::sqrt(0.5), 3);
-    const double left = 1 - side * side;
+    const double left = 1 - mask_at_the_horizon();
     CHECK(std::abs(left - 0.049621) <= 0.5e-6);
     CHECK(std::abs(without.jump - 0.19 / pi) <= 0x1p-48);
     CHECK(std::abs(with.jump - without.jump * left) <= 0x1p-48);
@@ -183,6 +200,20 @@ TEST_CASE("falloffs of 1 are steep for Callisto, but do not jump", "[continuity]
         CHECK(row("callisto", "blend_weight", across).continuous);
     for (const char* across : {"specular_fresnel_falloff = 0", "specular_fresnel_falloff = 1"})
         CHECK(row("callisto", "F_Callisto", across).continuous);
+}
+
+TEST_CASE("a terminator of no length is a step", "[continuity][shipped]")
+{
+    // 1 - alpha_s(90 degrees) o on the boundary, 1 in the light; a smoothstep whose edges are
+    // equal.
+    const Continuity& step = row("callisto", "c2", "n.l = 0, any parameters");
+    CHECK(!step.continuous);
+    CHECK(std::abs(step.jump - mask_at_the_horizon()) <= 0x1p-48);
+    // And with its default length it is none.
+    const auto& rows = rows_of("callisto");
+    CHECK(std::ranges::none_of(rows, [](const Continuity& one) {
+        return one.function == "c2" && one.across == "n.l = 0" && !one.continuous;
+    }));
 }
 
 TEST_CASE("Callisto's effects come in and go out without a jump", "[continuity][shipped]")
