@@ -2,6 +2,7 @@
 #include "analyze/cost.h"
 
 #include "analyze/cost_shaders.h"
+#include "analyze/cost_time.h"
 #include "analyze/spirv_count.h"
 #include "analyze/tasks.h"
 #include "verify/judge.h"
@@ -96,6 +97,7 @@ public:
             step("shaders");
         });
         if (options_.statistics) measure_statistics();
+        if (options_.nanoseconds) measure_time();
         return std::move(out_);
     }
 
@@ -217,6 +219,24 @@ private:
                                         {*squares, *cubes, *square, *product}));
         }
         out_.costs[subject].families = std::move(costs);
+    }
+
+    /// One after the other, so that none disturbs another.
+    void measure_time()
+    {
+        done_ = 0;
+        total_ = subjects_.size();
+        std::optional<DeviceClock> clock;
+        if (auto opened = device::Device::open(options_.device, out_.no_device)) {
+            out_.device = fmt::format("{}, {}", opened->facts().name, opened->facts().driver);
+            clock.emplace(std::move(*opened));
+        }
+        for (std::size_t i = 0; i < subjects_.size(); ++i) {
+            Cost& cost = out_.costs[i];
+            if (clock) cost.device_nanoseconds = clock->nanoseconds(jobs_[i].chain);
+            cost.tape_nanoseconds = tape_nanoseconds(subjects_[i]);
+            step("time");
+        }
     }
 
     void step(std::string_view what)

@@ -3,7 +3,7 @@
 //
 // Costs are marginal: of one more evaluation in a shader that already runs. A chain of n and one of
 // 2n evaluations, each fed by the one before, are compiled; their difference is n evaluations and n
-// links, and the links' own cost is measured alike and taken away.
+// links, and the links' own cost is measured alike and taken away. docs/cost.md tells more.
 #pragma once
 
 #include "analyze/store.h"
@@ -55,7 +55,7 @@ struct FamilyCost {
 
 struct Cost {
     std::vector<FamilyCost> families;          ///< in the order of all_families; or empty
-    int spirv_instructions = 0;                ///< arithmetic, after spirv-opt -O
+    int spirv_instructions = 0;                ///< arithmetic per component, after spirv-opt -O
     std::optional<double> device_nanoseconds;  ///< of one evaluation on the device
     std::optional<double> tape_nanoseconds;    ///< of one evaluation on one core
 };
@@ -82,6 +82,7 @@ struct Costs {
     std::string no_statistics;  ///< why there are none; empty: there are, or none were asked for
     std::string driver;         ///< `radv, Mesa 22.3.6`
     std::string device;         ///< that nanoseconds are of
+    std::string no_device;      ///< why there are none of a device, like `no_statistics`
 };
 
 /// Results are the same whatever the number of threads, but for nanoseconds.

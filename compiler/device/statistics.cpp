@@ -39,11 +39,15 @@ std::vector<std::string> child_environment(const std::string& chip)
         "VK_LOADER_DRIVERS_SELECT=*radeon*",
         "VK_LOADER_LAYERS_DISABLE=~implicit~",
     };
-    for (const char* const kept :
-         {"PATH", "HOME", "LD_LIBRARY_PATH", "XDG_CONFIG_DIRS", "XDG_CONFIG_HOME", "XDG_DATA_DIRS",
-          "XDG_DATA_HOME", "VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_ADD_DRIVER_FILES"})
+    for (const char* const kept : {"PATH", "LD_LIBRARY_PATH", "XDG_DATA_DIRS", "VK_DRIVER_FILES",
+                                   "VK_ICD_FILENAMES", "VK_ADD_DRIVER_FILES"})
         if (const char* const value = std::getenv(kept))
             variables.push_back(fmt::format("{}={}", kept, value));
+    // Drivers that a user installed are found without HOME, where that user's settings of them are.
+    if (const char* const data = std::getenv("XDG_DATA_HOME"))
+        variables.push_back(fmt::format("XDG_DATA_HOME={}", data));
+    else if (const char* const home = std::getenv("HOME"))
+        variables.push_back(fmt::format("XDG_DATA_HOME={}/.local/share", home));
     return variables;
 }
 
