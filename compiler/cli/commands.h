@@ -9,6 +9,7 @@ namespace lobe::cli {
 
 void add_build(CLI::App& app, const Terminal& terminal, int& status);
 void add_check(CLI::App& app, const Terminal& terminal, int& status);
+void add_cost(CLI::App& app, const Terminal& terminal, int& status);
 void add_format(CLI::App& app, const Terminal& terminal, int& status);
 void add_evaluate(CLI::App& app, const Terminal& terminal, int& status);
 void add_pack(CLI::App& app, const Terminal& terminal, int& status);

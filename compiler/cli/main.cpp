@@ -44,6 +44,7 @@ int main(int argc, char** argv)
     int status = success;
     add_build(app, terminal, status);
     add_check(app, terminal, status);
+    add_cost(app, terminal, status);
     add_format(app, terminal, status);
     add_evaluate(app, terminal, status);
     add_pack(app, terminal, status);

@@ -19,7 +19,7 @@ TEST_CASE("every command has help with an example")
 {
     const Scratch scratch;
     for (const char* command :
-         {"build", "check", "format", "evaluate", "pack", "verify", "explain", "devices"}) {
+         {"build", "check", "format", "evaluate", "pack", "cost", "verify", "explain", "devices"}) {
         const Outcome outcome = scratch.run(fmt::format("lobec {} --help", command));
         CAPTURE(command);
         CHECK(outcome.status == 0);
