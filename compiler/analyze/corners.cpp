@@ -67,7 +67,7 @@ class SubjectRun {
 public:
     SubjectRun(const Subject& subject, const Sources& sources, const CornerOptions& options,
                const Store& store, device::Device* device)
-        : subject_(subject), sources_(sources), options_(options), store_(store), device_(device),
+        : subject_(subject), sources_(sources), store_(store), device_(device),
           inputs_(*subject.module, subject.function, grid_of(table_of(subject.precision)))
     {
         std::vector<NamedBox> open;
@@ -179,8 +179,9 @@ private:
         out.not_a_number = count.not_a_number;
         out.infinite = count.infinite;
         if (!count.example || had) return;
+        // The sign of a NaN says nothing.
         out.example =
-            fmt::format("{} at {}", count.value,
+            fmt::format("{} at {}", std::isnan(count.value) ? NAN : count.value,
                         describe_inputs(inputs_.entry(), points_, *count.example / components));
     }
 
@@ -214,7 +215,6 @@ private:
 
     const Subject& subject_;
     const Sources& sources_;
-    const CornerOptions& options_;
     const Store& store_;
     device::Device* device_;
     EntryInputs inputs_;
