@@ -65,9 +65,9 @@ TEST_CASE("cost tells terms and models on every family, the same each time")
     CHECK(place.run("lobec cost small.lobe --no-cache --json three.json").status == 0);
     CHECK(place.read("one.json") == place.read("three.json"));
 
-    // 1 - x, and three products.
-    CHECK(issue(nlohmann::json::parse(place.read("one.json")), "weight") == 4);
-    CHECK(issue(nlohmann::json::parse(place.read("one.json")), "weight", "gcn5") == 16);
+    // Three products: who calls it knows 1 - cos_d, which needs no subtraction.
+    CHECK(issue(nlohmann::json::parse(place.read("one.json")), "weight") == 3);
+    CHECK(issue(nlohmann::json::parse(place.read("one.json")), "weight", "gcn5") == 12);
 }
 
 TEST_CASE("cost shows what one family is known for, and only what is asked")
@@ -116,7 +116,7 @@ TEST_CASE("cost against a baseline says what changed, and fails past a limit")
     place.write("small.lobe", dearer);
     const Outcome hurt = place.cost("--baseline old.json --fail-above 2%");
     CHECK(hurt.status == 1);
-    CHECK_THAT(hurt.out, Contains("hurt    small: scaled: 5 -> 6 (+20.0 %)"));
+    CHECK_THAT(hurt.out, Contains("hurt    small: scaled: 4 -> 5 (+25.0 %)"));
     CHECK(place.cost("--baseline old.json --fail-above 30%").status == 0);
     CHECK(place.cost("--baseline old.json").status == 0);
     CHECK(place.cost("--baseline old.json --fail-above 2% --term weight").status == 0);
