@@ -8,7 +8,7 @@ namespace lobe::analyze {
 namespace {
 
 /// Nodes on [-1, 1]: the roots of the Legendre polynomial, by Newton's method from the estimate
-/// cos(pi (i + 3/4) / (n + 1/2)). [AbramowitzStegun64] 25.4.29
+/// cos(pi (i + 3/4) / (n + 1/2)). [Abramowitz64] 25.4.29
 std::vector<QuadratureNode> legendre(int order)
 {
     std::vector<QuadratureNode> nodes;
