@@ -3,6 +3,7 @@
 #include "analyze/minimax.h"
 #include "analyze/radiance.h"
 #include "analyze/trade.h"
+#include "analyze/trade_text.h"
 #include "optimize/optimize.h"
 
 #include <fmt/format.h>
@@ -69,15 +70,56 @@ std::vector<ir::FunctionId> terms_of(const ir::Module& module, const ParetoOptio
     return terms;
 }
 
+/// Everything that a trade is made of, as text.
+std::string key_of(const TradeSubject& subject, const FoundNames& found,
+                   const ParetoOptions& options, const std::string& driver)
+{
+    std::string key = fmt::format("trade 1\n{}\n{}\n{} points{}\n{}\n", subject.name(),
+                                  subject.is_model() ? "model" : "term", options.points,
+                                  options.every_cost ? ", every cost" : "", driver);
+    for (const auto& [term, form] : found) key += fmt::format("found {} {}\n", term, form);
+    for (const ir::Parameter& parameter : subject.module().parameters)
+        key += fmt::format("{} {} {}\n", parameter.name, parameter.range.low, parameter.range.high);
+    for (const ir::Function& function : subject.module().functions) {
+        key += fmt::format("{} {}\n", function.name, function.form_name);
+        for (const ir::Input& input : function.inputs)
+            key += fmt::format("{} {} {} {} {}\n", input.name, static_cast<int>(input.origin),
+                               input.which, input.range.low, input.range.high);
+        key += ir::dump(function.graph);
+        key += fmt::format("%{}\n", function.result.index);
+    }
+    return key;
+}
+
+Trade kept_trade(const TradeSubject& subject, const FoundNames& found, const ParetoOptions& options,
+                 const Measurer& measurer, const std::string& driver, const Store& store)
+{
+    const std::string key = key_of(subject, found, options, driver);
+    if (store.load)
+        if (const auto text = store.load(key))
+            if (auto known = read_trade(*text)) {
+                judge(*known);
+                return std::move(*known);
+            }
+    Trade made = trade(subject, found, options, measurer, store);
+    if (store.save) store.save(key, to_text(made));
+    return made;
+}
+
 /// Two ways that a build could choose between.
 bool has_alternative(const Trade& trade)
 {
     return std::ranges::count(trade.candidates, true, &Candidate::selectable) > 1;
 }
 
-std::optional<Deviation> quantization(const ir::Module& optimized, const ir::Model& model,
+std::optional<Deviation> quantization(const ir::Module& checked, const ir::Model& model,
                                       const ParetoOptions& options)
 {
+    if (std::ranges::none_of(checked.packings, [&model](const ir::Packing& packing) {
+            return packing.model.name == model.name;
+        }))
+        return std::nullopt;
+    const ir::Module optimized = optimize::optimize(checked);
     for (const ir::Packing& packing : optimized.packings) {
         if (packing.model.name != model.name) continue;
         const PackingErrors errors =
@@ -145,22 +187,22 @@ Pareto pareto(const ir::Module& original, const Sources& sources, const ParetoOp
         out.about.device = costs.device;
         return costs;
     };
+    // A driver of another version is another driver.
+    const std::string driver = measurer({}).driver;
     if (options.terms)
         for (const ir::FunctionId term : terms_of(checked, options)) {
-            Trade of_term =
-                trade(TradeSubject::of_term(checked, term), found, options, measurer, store);
+            Trade of_term = kept_trade(TradeSubject::of_term(checked, term), found, options,
+                                       measurer, driver, store);
             if (has_alternative(of_term)) out.trades.push_back(std::move(of_term));
         }
-    if (options.models && !checked.models.empty()) {
-        const ir::Module optimized = optimize::optimize(checked);
+    if (options.models)
         for (const ir::Model& model : checked.models) {
             if (!asks_for(options.only_model, model.name)) continue;
-            Trade of_model =
-                trade(TradeSubject::of_model(checked, model), found, options, measurer, store);
-            of_model.quantization = quantization(optimized, model, options);
+            Trade of_model = kept_trade(TradeSubject::of_model(checked, model), found, options,
+                                        measurer, driver, store);
+            of_model.quantization = quantization(checked, model, options);
             out.trades.push_back(std::move(of_model));
         }
-    }
     const auto spent = std::chrono::steady_clock::now() - start;
     out.seconds = std::chrono::duration<double>(spent).count();
     return out;

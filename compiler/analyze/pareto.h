@@ -68,6 +68,8 @@ struct Trade {
 struct ParetoOptions {
     CostOptions cost;
     std::size_t points = std::size_t{1} << 15;
+    /// Also the costs of what an estimate excludes from every frontier of a model.
+    bool every_cost = false;
     bool terms = true;
     bool models = true;
     std::string only_term;   ///< empty: all

@@ -72,12 +72,18 @@ void Tally::count(const Rows& rows, const std::vector<double>& to)
             ++not_finite_;
 }
 
-std::vector<std::vector<float>> Tally::worst_points(std::size_t count) const
+std::vector<const Tally::Worst*> Tally::by_error() const
 {
     std::vector<const Worst*> ranked;
     for (const Worst& worst : worst_) ranked.push_back(&worst);
     std::ranges::stable_sort(ranked,
                              [](const Worst* a, const Worst* b) { return a->error > b->error; });
+    return ranked;
+}
+
+std::vector<std::vector<float>> Tally::worst_points(std::size_t count) const
+{
+    std::vector<const Worst*> ranked = by_error();
     if (ranked.size() > count) ranked.resize(count);
     std::vector<std::vector<float>> points;
     for (const Worst* worst : ranked) points.push_back(worst->rows->point(worst->row));
@@ -90,22 +96,34 @@ Tally::report(const std::function<Confirmed(const Rows& rows, std::size_t row)>&
     Deviation out;
     out.points = points_;
     out.not_finite = not_finite_;
-    const auto found = std::ranges::max_element(worst_, {}, &Worst::error);
-    if (found == worst_.end()) return out;
-    const Rows& rows = *found->rows;
-    const Confirmed values = confirm(rows, found->row);
-    const std::vector<double>& to = values.to.empty() ? found->to : values.to;
+    if (worst_.empty()) return out;
+
+    // What double computed of a point may be noise: then the next one is the worst.
+    constexpr std::size_t most_confirmed = 16;
+    const std::vector<const Worst*> ranked = by_error();
+    bool over_reals = false;
     double absolute = 0;
     double codes = 0;
-    for (std::size_t k = 0; k < to.size(); ++k) {
-        const double size = std::max(std::abs(values.from[k]), rows.floor_of(found->row));
-        absolute = std::max(absolute, std::abs(to[k] - values.from[k]));
-        codes = std::max(codes, std::abs(display_code(to[k]) - display_code(values.from[k])));
-        out.scaled = std::max(out.scaled, std::abs(to[k] - values.from[k]) / size);
+    for (std::size_t i = 0; i < std::min(ranked.size(), most_confirmed); ++i) {
+        const Worst& worst = *ranked[i];
+        if (i > 0 && worst.error <= out.scaled) break;
+        const Rows& rows = *worst.rows;
+        const Confirmed values = confirm(rows, worst.row);
+        over_reals = !values.to.empty();
+        const std::vector<double>& to = over_reals ? values.to : worst.to;
+        double scaled = 0;
+        for (std::size_t k = 0; k < to.size(); ++k) {
+            const double difference = std::abs(to[k] - values.from[k]);
+            const double size = std::max(std::abs(values.from[k]), rows.floor_of(worst.row));
+            scaled = std::max(scaled, difference / size);
+            absolute = std::max(absolute, difference);
+            codes = std::max(codes, std::abs(display_code(to[k]) - display_code(values.from[k])));
+        }
+        if (i > 0 && scaled <= out.scaled) continue;
+        out.scaled = scaled;
+        out.at = rows.describe(worst.row);
     }
-    out.at = rows.describe(found->row);
 
-    constexpr double noise = 1e-3;
     std::vector<double> usual = usual_;
     if (!usual.empty()) {
         const auto share = [&usual](std::size_t percent) {
@@ -117,7 +135,10 @@ Tally::report(const std::function<Confirmed(const Rows& rows, std::size_t row)>&
         out.often = share(99);
         out.root_mean_square = std::sqrt(sum_of_squares_ / static_cast<double>(usual.size()));
     }
-    const bool only_noise = !values.to.empty() && out.scaled <= noise * found->error;
+    constexpr double noise = 1e-3;        // of what double said
+    constexpr double usual_noise = 1e-7;  // more than double makes of any usual point
+    const bool only_noise =
+        over_reals && out.scaled <= noise * ranked.front()->error && out.often <= usual_noise;
     out.absolute = only_noise ? absolute : std::max(absolute, absolute_);
     out.codes = only_noise ? codes : std::max(codes, codes_);
     if (only_noise) {
@@ -125,6 +146,7 @@ Tally::report(const std::function<Confirmed(const Rows& rows, std::size_t row)>&
         out.typical = std::min(out.typical, out.scaled);
         out.root_mean_square = std::min(out.root_mean_square, absolute);
     }
+    out.scaled = std::max(out.scaled, out.often);
     return out;
 }
 

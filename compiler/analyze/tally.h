@@ -35,8 +35,8 @@ public:
     /// The worst of each chunk that was added, worst first.
     std::vector<std::vector<float>> worst_points(std::size_t count) const;
 
-    /// The worst point is computed again by `confirm`. Where that shows that all there was is the
-    /// noise of double, so are the other numbers.
+    /// The worst points are computed again by `confirm`. Where that shows that all there was is
+    /// the noise of double, so are the other numbers.
     Deviation
     report(const std::function<Confirmed(const Rows& rows, std::size_t row)>& confirm) const;
 
@@ -47,6 +47,8 @@ private:
         std::size_t row = 0;
         std::vector<double> to;
     };
+
+    std::vector<const Worst*> by_error() const;
 
     std::vector<Worst> worst_;  ///< of each chunk
     std::vector<double> usual_;

@@ -18,16 +18,12 @@ using optimize::Spelling;
 
 /// So many combinations of forms are evaluated; of more, those of fewest forms.
 constexpr double most_combinations = 600;
+/// Of more, each gets less attention; what was worst for one is tried on all.
+constexpr std::size_t many_ways = 64;
 
 /// In this order: of two that are the same text, the first stays.
 constexpr std::array all_spellings{Spelling::stable, Spelling::factored, Spelling::as_written,
                                    Spelling::naive};
-
-/// Whether a spelling is looked at in half precision, too. Of a whole model only what ships is.
-bool has_half(const TradeSubject& subject, Spelling spelling)
-{
-    return spelling == Spelling::stable || (!subject.is_model() && spelling != Spelling::naive);
-}
 
 /// One choice in all its spellings, as tapes from vectors.
 struct Drafted {
@@ -52,6 +48,144 @@ std::vector<Drafted> draft(const TradeSubject& subject,
     return all;
 }
 
+/// Everything of a trade but its costs.
+class Errors {
+public:
+    Errors(const TradeSubject& subject, const FoundNames& found, const ParetoOptions& options,
+           const Store& store)
+        : subject_{subject}, found_{found}, options_{options}, store_{store},
+          yardstick_{subject.module(), subject.outputs(), subject.is_model()}
+    {
+        for (const optimize::Choice& choice : subject.choices(1)) {
+            const Spelled chosen = subject.chosen(choice);
+            yardstick_.widen(chosen.module, chosen.outputs);
+        }
+        most_forms_ = subject.alternatives().size();
+        while (subject.combinations(most_forms_) > most_combinations) --most_forms_;
+    }
+
+    /// Fills in the candidates; which is which goes to the ledger.
+    void run(Trade& out, Ledger& ledger)
+    {
+        std::vector<Drafted> drafts =
+            draft(subject_, subject_.choices(most_forms_), options_.cost.jobs);
+        const bool half = !subject_.is_model() || is_finite_in_half(drafts.front());
+        // What is the same text as something before is the same candidate.
+        std::vector<Way> ways;
+        std::map<std::string, std::size_t> known;  // by text: the first of its candidates
+        for (Drafted& drafted : drafts) {
+            Way way;
+            for (std::size_t s = 0; s < all_spellings.size(); ++s) {
+                if (drafted.texts[s].empty()) continue;
+                const Spelling spelling = all_spellings[s];
+                const auto [at, is_new] =
+                    known.try_emplace(drafted.texts[s], out.candidates.size());
+                ledger.note(drafted.choice, spelling, at->second);
+                if (!is_new) continue;
+                add(out, way, drafted, s, Format::float32);
+                if (!has_half(drafted.choice, spelling, half)) continue;
+                add(out, way, drafted, s, Format::float16);
+                add(out, way, drafted, s, Format::packed16);
+            }
+            if (way.contenders.empty()) continue;
+            way.real = std::move(drafted.tapes[0]);
+            ways.push_back(std::move(way));
+        }
+        drafts.clear();
+        fill_in(out, ways);
+        out.search = words(out, half);
+    }
+
+private:
+    /// Of a model only what ships is looked at in half precision, and if that is not finite, no
+    /// other choice of forms is.
+    bool has_half(const optimize::Choice& choice, Spelling spelling, bool half) const
+    {
+        if (spelling == Spelling::naive) return false;
+        if (!subject_.is_model()) return true;
+        return spelling == Spelling::stable && (half || choice.empty());
+    }
+
+    bool is_finite_in_half(const Drafted& definition) const
+    {
+        DeviationOptions quick;
+        quick.points = options_.points / 4;
+        quick.climbs = 0;
+        quick.jobs = options_.cost.jobs;
+        const std::array ways{Way{definition.tapes[0], {{definition.tapes[0], Format::float16}}}};
+        return deviations(yardstick_, ways, quick, store_)[0].contenders[0].total.not_finite == 0;
+    }
+
+    void add(Trade& out, Way& way, const Drafted& drafted, std::size_t spelling,
+             Format format) const
+    {
+        Candidate& candidate = out.candidates.emplace_back();
+        candidate.choice = drafted.choice;
+        candidate.spelling = all_spellings[spelling];
+        candidate.format = format;
+        candidate.found = std::ranges::any_of(
+            drafted.choice, [this](const auto& form) { return found_.contains(form); });
+        candidate.selectable = candidate.spelling != Spelling::naive && format == Format::float32;
+        if (candidate.spelling == Spelling::naive)
+            candidate.note = "as typed by hand: for comparison";
+        else if (!candidate.selectable)
+            candidate.note = "not emitted";
+        if (format != Format::packed16) way.contenders.push_back({drafted.tapes[spelling], format});
+    }
+
+    void fill_in(Trade& out, const std::vector<Way>& ways) const
+    {
+        DeviationOptions deviation;
+        deviation.points = options_.points;
+        deviation.jobs = options_.cost.jobs;
+        deviation.progress = options_.progress;
+        if (ways.size() > many_ways) {
+            deviation.points /= 2;
+            deviation.climbs = 1;
+            deviation.rounds = 16;
+            deviation.every_contender = false;
+        }
+        const std::vector<Deviations> errors = deviations(yardstick_, ways, deviation, store_);
+        std::size_t next = 0;
+        for (std::size_t w = 0; w < ways.size(); ++w)
+            for (std::size_t k = 0; k < ways[w].contenders.size(); ++k) {
+                const int copies = ways[w].contenders[k].format == Format::float16 ? 2 : 1;
+                for (int copy = 0; copy < copies; ++copy) {
+                    Candidate& candidate = out.candidates[next++];
+                    candidate.model = errors[w].model;
+                    candidate.rounding = errors[w].contenders[k].rounding;
+                    candidate.total = errors[w].contenders[k].total;
+                    if (!candidate.choice.empty()) continue;
+                    // It is its own exact value, and all that is left is rounding.
+                    candidate.model = {};
+                    candidate.rounding = candidate.total;
+                }
+            }
+    }
+
+    std::string words(const Trade& out, bool half) const
+    {
+        const double all = subject_.combinations(subject_.alternatives().size());
+        const double evaluated = subject_.combinations(most_forms_);
+        std::string text =
+            evaluated == all
+                ? fmt::format("errors of all {} combinations of forms", all)
+                : fmt::format("errors of {} of {} combinations of forms, those of at most {} forms "
+                              "(more may be better)",
+                              evaluated, all, most_forms_);
+        text += fmt::format(", {} ways in all", out.candidates.size());
+        if (!half) text += "; in half only of the definitions, which are not finite in it";
+        return text;
+    }
+
+    const TradeSubject& subject_;
+    const FoundNames& found_;
+    const ParetoOptions& options_;
+    const Store& store_;
+    Yardstick yardstick_;
+    std::size_t most_forms_ = 0;
+};
+
 }  // namespace
 
 Trade trade(const TradeSubject& subject, const FoundNames& found, const ParetoOptions& options,
@@ -61,86 +195,8 @@ Trade trade(const TradeSubject& subject, const FoundNames& found, const ParetoOp
     out.name = subject.name();
     out.whole_model = subject.is_model();
     out.from_vectors = subject.has_geometry();
-
-    std::size_t most_forms = subject.alternatives().size();
-    while (subject.combinations(most_forms) > most_combinations) --most_forms;
-    std::vector<Drafted> drafts = draft(subject, subject.choices(most_forms), options.cost.jobs);
-
-    Yardstick yardstick{subject.module(), subject.outputs(), subject.is_model()};
-    for (const optimize::Choice& choice : subject.choices(1)) {
-        const Spelled chosen = subject.chosen(choice);
-        yardstick.widen(chosen.module, chosen.outputs);
-    }
-
-    // What is the same text as something before is the same candidate.
-    std::vector<Way> ways;
     Ledger ledger;
-    std::map<std::string, std::size_t> known;  // by text: the first of its candidates
-    for (Drafted& drafted : drafts) {
-        Way way;
-        for (std::size_t s = 0; s < all_spellings.size(); ++s) {
-            if (drafted.texts[s].empty()) continue;
-            const auto [at, is_new] = known.try_emplace(drafted.texts[s], out.candidates.size());
-            ledger.note(drafted.choice, all_spellings[s], at->second);
-            if (!is_new) continue;
-            for (const Format format : {Format::float32, Format::float16, Format::packed16}) {
-                if (format != Format::float32 && !has_half(subject, all_spellings[s])) break;
-                Candidate& candidate = out.candidates.emplace_back();
-                candidate.choice = drafted.choice;
-                candidate.spelling = all_spellings[s];
-                candidate.format = format;
-                candidate.found = std::ranges::any_of(
-                    drafted.choice, [&found](const auto& form) { return found.contains(form); });
-                if (format != Format::packed16)
-                    way.contenders.push_back({drafted.tapes[s], format});
-            }
-        }
-        if (way.contenders.empty()) continue;
-        way.real = std::move(drafted.tapes[0]);
-        ways.push_back(std::move(way));
-    }
-    drafts.clear();
-
-    DeviationOptions deviation;
-    deviation.points = options.points;
-    deviation.jobs = options.cost.jobs;
-    deviation.progress = options.progress;
-    if (ways.size() > 64) {
-        deviation.points /= 2;
-        deviation.climbs = 1;
-        deviation.rounds = 16;
-    }
-    const std::vector<Deviations> errors = deviations(yardstick, ways, deviation, store);
-    std::size_t next = 0;
-    for (std::size_t w = 0; w < ways.size(); ++w)
-        for (std::size_t k = 0; k < ways[w].contenders.size(); ++k) {
-            const int copies = ways[w].contenders[k].format == Format::float16 ? 2 : 1;
-            for (int copy = 0; copy < copies; ++copy) {
-                Candidate& candidate = out.candidates[next++];
-                candidate.model = errors[w].model;
-                // Where the exact value jumps, no arithmetic lands on the same side every time.
-                if (candidate.choice.empty()) candidate.model = {};
-                candidate.rounding = errors[w].contenders[k].rounding;
-                candidate.total = errors[w].contenders[k].total;
-            }
-        }
-    for (Candidate& candidate : out.candidates) {
-        candidate.selectable =
-            candidate.spelling != Spelling::naive && candidate.format == Format::float32;
-        if (candidate.spelling == Spelling::naive)
-            candidate.note = "as typed by hand: for comparison";
-        else if (!candidate.selectable)
-            candidate.note = "no target is written in half precision";
-    }
-
-    const double all = subject.combinations(subject.alternatives().size());
-    const double evaluated = subject.combinations(most_forms);
-    out.search = evaluated == all
-                     ? fmt::format("errors of all {} combinations of forms, {} ways in all", all,
-                                   out.candidates.size())
-                     : fmt::format("errors of {} of {} combinations of forms, those of at most {} "
-                                   "forms, {} ways in all: combinations of more may be better",
-                                   evaluated, all, most_forms, out.candidates.size());
+    Errors{subject, found, options, store}.run(out, ledger);
     const std::string costs = fill_in_costs(out, subject, ledger, options, measurer);
     if (!costs.empty()) out.search += "; " + costs;
     judge(out);
@@ -155,7 +211,7 @@ void judge(Trade& trade)
     }
     const auto stands = [&trade](const Candidate& candidate, std::size_t family) {
         return family < trade.cost_of(candidate).families.size() &&
-               candidate.spelling != Spelling::naive;
+               candidate.spelling != Spelling::naive && std::isfinite(trade.error_of(candidate));
     };
     for (std::size_t i = 0; i < trade.candidates.size(); ++i) {
         Candidate& one = trade.candidates[i];
@@ -183,7 +239,7 @@ void judge(Trade& trade)
                 best = j;
             }
             one.standing[family].dominated_by = best;
-            one.standing[family].on_frontier = !best && stands(one, family) && std::isfinite(error);
+            one.standing[family].on_frontier = !best && stands(one, family);
         }
     }
 }

@@ -33,7 +33,7 @@ public:
     std::string run()
     {
         const std::size_t all = trade_.candidates.size();
-        if (!trade_.whole_model || all <= always_measured) {
+        if (!trade_.whole_model || options_.every_cost || all <= always_measured) {
             measure(of([](std::size_t) { return true; }));
             return {};
         }
@@ -106,7 +106,9 @@ private:
             places.push_back(from_vectors ? &candidate.from_vectors : &candidate.cost);
         };
         for (std::size_t i = 0; i < candidates.size(); ++i) {
-            if (!trade_.whole_model || !trade_.from_vectors) ask(i, false);
+            // Given its fields it is worth knowing of what ships; frontiers are drawn from vectors.
+            const bool ships = trade_.candidates[candidates[i]].format == Format::float32;
+            if (!trade_.from_vectors || (!trade_.whole_model && ships)) ask(i, false);
             if (trade_.from_vectors) ask(i, true);
             measured_[candidates[i]] = true;
         }

@@ -5,11 +5,11 @@
 #include "analyze/rows.h"
 #include "analyze/tally.h"
 #include "analyze/tasks.h"
+#include "analyze/trade_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <mutex>
 #include <optional>
 
@@ -186,6 +186,7 @@ private:
         std::vector<double> real;
         std::vector<double> rounded;
         for (const Rows& rows : ground) {
+            if (rows.size() == 0) continue;
             const Tally::Where where{&rows, extent == Extent::box};
             rows.run(*question.real.tape, question.real.columns, std::nullopt, real);
             question.model.add(where, rows.exact(), real);
@@ -218,7 +219,10 @@ private:
         Question& question = questions_[way];
         std::vector<std::vector<float>> peaks;
         ascend(question.real, std::nullopt, question.model, way, peaks);
-        for (std::size_t k = 0; k < question.contenders.size(); ++k)
+        const std::size_t count = options_.every_contender
+                                      ? question.contenders.size()
+                                      : std::min<std::size_t>(question.contenders.size(), 1);
+        for (std::size_t k = 0; k < count; ++k)
             ascend(question.contenders[k], ways_[way].contenders[k].format,
                    question.tallies[k].total, way, peaks);
         return peaks;
@@ -262,6 +266,7 @@ private:
     Rows rows_of(const std::vector<std::vector<float>>& points)
     {
         Rows rows{yardstick_, points.size()};
+        if (points.empty()) return rows;
         for (std::size_t row = 0; row < points.size(); ++row)
             for (std::size_t i = 0; i < points[row].size(); ++i)
                 rows.column(i)[row] = points[row][i];
@@ -307,40 +312,12 @@ private:
     std::size_t done_ = 0;
 };
 
-// ---- kept between runs: one line per deviation
-
-std::string line_of(const Deviation& d)
-{
-    return fmt::format("{} {} {} {} {} {} {} {} {}\n", d.scaled, d.often, d.typical, d.absolute,
-                       d.root_mean_square, d.codes, d.points, d.not_finite, d.at);
-}
-
-/// The next line of a text; nothing where it is not one of `line_of`.
-std::optional<Deviation> read_line(std::string_view& text)
-{
-    const auto end = text.find('\n');
-    if (end == std::string_view::npos) return std::nullopt;
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end + 1);
-    Deviation d;
-    const auto take = [&line](auto& number) {
-        const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), number);
-        if (error != std::errc{} || rest == line.data() + line.size() || *rest != ' ') return false;
-        line.remove_prefix(static_cast<std::size_t>(rest - line.data()) + 1);
-        return true;
-    };
-    if (!take(d.scaled) || !take(d.often) || !take(d.typical) || !take(d.absolute) ||
-        !take(d.root_mean_square) || !take(d.codes) || !take(d.points) || !take(d.not_finite))
-        return std::nullopt;
-    d.at = line;
-    return d;
-}
-
 std::string key_of(const Yardstick& yardstick, std::span<const Way> ways,
                    const DeviationOptions& options)
 {
-    std::string key = fmt::format("deviations 2: {} points, {} climbs of {} rounds\n",
-                                  options.points, options.climbs, options.rounds);
+    std::string key = fmt::format("deviations 2: {} points, {} climbs of {} rounds{}\n",
+                                  options.points, options.climbs, options.rounds,
+                                  options.every_contender ? "" : " for the first");
     key += yardstick.text();
     for (const Way& way : ways) {
         key += "way\n" + evaluate::dump(way.real);
@@ -353,19 +330,17 @@ std::string key_of(const Yardstick& yardstick, std::span<const Way> ways,
 std::optional<std::vector<Deviations>> read(std::string_view text, std::span<const Way> ways)
 {
     std::vector<Deviations> results;
-    const auto into = [&text](Deviation& out) {
-        auto read = read_line(text);
-        if (read) out = std::move(*read);
-        return read.has_value();
-    };
+    Reader reader{text};
     for (const Way& way : ways) {
         Deviations& out = results.emplace_back();
-        if (!into(out.model)) return std::nullopt;
+        reader.take(out.model);
         out.contenders.resize(way.contenders.size());
-        for (Deviations::OfContender& contender : out.contenders)
-            if (!into(contender.rounding) || !into(contender.total)) return std::nullopt;
+        for (Deviations::OfContender& contender : out.contenders) {
+            reader.take(contender.rounding);
+            reader.take(contender.total);
+        }
     }
-    if (!text.empty()) return std::nullopt;
+    if (!reader.is_done()) return std::nullopt;
     return results;
 }
 
@@ -382,9 +357,11 @@ std::vector<Deviations> deviations(const Yardstick& yardstick, std::span<const W
     if (store.save) {
         std::string text;
         for (const Deviations& result : results) {
-            text += line_of(result.model);
-            for (const Deviations::OfContender& contender : result.contenders)
-                text += line_of(contender.rounding) + line_of(contender.total);
+            put(text, result.model);
+            for (const Deviations::OfContender& contender : result.contenders) {
+                put(text, contender.rounding);
+                put(text, contender.total);
+            }
         }
         store.save(key, text);
     }

@@ -73,8 +73,9 @@ struct Deviations {
 
 struct DeviationOptions {
     std::size_t points = std::size_t{1} << 15;
-    std::size_t climbs = 3;  ///< per contender, from its worst points
-    int rounds = 24;         ///< of each climb
+    std::size_t climbs = 3;       ///< per contender, from its worst points
+    int rounds = 24;              ///< of each climb
+    bool every_contender = true;  ///< false: climbs for the first contender of each way only
     unsigned jobs = 0;
     std::function<void(const Progress&)> progress;
 };
