@@ -42,6 +42,14 @@ std::string banner(const ir::Module& module)
                        LOBE_VERSION, path, path);
 }
 
+std::vector<Record> remarks(const ir::Module& module)
+{
+    std::vector<std::string> texts;
+    for (const std::string& remark : module.remarks)
+        for (std::string& line : fill(remark, 96)) texts.push_back(std::move(line));
+    return lines(texts);
+}
+
 std::string include_guard(const ir::Module& module, const Target& target, std::string_view part)
 {
     return upper(fmt::format("LOBE_{}_{}{}{}", module.name, part, part.empty() ? "" : "_",

@@ -109,6 +109,7 @@ PackingFiles::PackingFiles(const ir::Module& module, const Sources& sources, con
 {
     calls_ = root_calls(module, module.packing_roots(), listing_, *dialect_);
     values_.texts = {{"banner", banner(module)}};
+    values_.lists["remarks"] = remarks(module);
     if (target.name != "ue4") values_.texts["guard"] = include_guard(module, target, "packing");
     std::vector<Record>& layouts = values_.lists["layouts"];
     for (const ir::Packing& packing : module.packings)

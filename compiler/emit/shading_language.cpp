@@ -237,6 +237,7 @@ ShadingFiles::ShadingFiles(const ir::Module& module, const Sources& sources, con
 {
     calls_ = root_calls(module, module.roots(), listing_, *dialect_);
     values_.texts = {{"banner", banner(module)}, {"guard", include_guard(module, target)}};
+    values_.lists["remarks"] = remarks(module);
     values_.lists["doc"] = module_doc(module);
     std::vector<Record> models;
     for (const ir::Model& model : module.models)

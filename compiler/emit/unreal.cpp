@@ -350,6 +350,7 @@ Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Tar
 
     Record values;
     values.texts = {{"banner", banner(module)}};
+    values.lists["remarks"] = remarks(module);
     values.lists["doc"] = module_doc(module);
     std::vector<Record> models;
     for (const ir::Model& model : module.models)

@@ -1,6 +1,9 @@
 //% # The include file of one module for GLSL and ESSL.  Functions are written by emit/listing.cpp,
 //% # models by emit/shading_language.cpp.
 // ${banner}
+//% for remark in remarks
+// ${remark.text}
+//% end
 //% for line in doc
 // ${line.text}
 //% end

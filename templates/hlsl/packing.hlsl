@@ -1,6 +1,9 @@
 //% # What packs the parameters of a module's models into a GBuffer and unpacks them, for HLSL.
 //% # Functions are written by emit/listing.cpp, layouts by emit/layout.cpp.
 // ${banner}
+//% for remark in remarks
+// ${remark.text}
+//% end
 //
 // How parameters are packed, and the functions that do it. A pack function takes values and returns
 // what a UNORM channel is to store; an unpack function takes what the channel reads. Values in
