@@ -36,9 +36,10 @@ std::string percent_of(double fraction)
 Table candidate_table(const Trade& trade)
 {
     Table table;
-    table.columns = {{"", true},         {"form, spelling, format"}, {"model", true},
-                     {"rounding", true}, {"proved", true},           {"total", true},
-                     {"codes", true}};
+    table.columns = {{"", true},       {"form, spelling, format"},
+                     {"model", true},  {"rounding", true},
+                     {"proved", true}, {"worst", true},
+                     {"99 %", true},   {"codes", true}};
     for (const analyze::Family family : analyze::all_families)
         table.columns.push_back({std::string{analyze::name(family)}, true});
     table.columns.push_back({"registers", true});
@@ -48,7 +49,7 @@ Table candidate_table(const Trade& trade)
     for (std::size_t i = 0; i < trade.candidates.size(); ++i) {
         if (!is_shown(trade, i)) continue;
         const Candidate& candidate = trade.candidates[i];
-        const analyze::Cost& cost = trade.whole_model ? candidate.from_vectors : candidate.cost;
+        const analyze::Cost& cost = trade.cost_of(candidate);
         std::vector<Cell> row;
         row.push_back({std::to_string(i + 1), Style::faint});
         row.push_back({analyze::describe(candidate)});
@@ -63,6 +64,7 @@ Table candidate_table(const Trade& trade)
                  Style::bad});
         else
             row.push_back({percent_of(candidate.total.scaled)});
+        row.push_back({percent_of(candidate.total.often)});
         row.push_back({short_number(candidate.total.codes)});
         for (std::size_t family = 0; family < analyze::all_families.size(); ++family) {
             const bool has = family < cost.families.size();
@@ -96,11 +98,12 @@ Section section_of(const Trade& trade, const std::string& path)
     out.title = trade.name;
     out.paragraphs.push_back(
         {fmt::format("{}{}. Issue cycles of one evaluation, {}; bold on that family's frontier. "
-                     "Errors are the worst, relative to the exact value or to {} where that is "
-                     "brighter.",
+                     "Errors are relative to the exact value or to {} where that is brighter: the "
+                     "worst, and what 99 % of points stay below{}.",
                      trade.whole_model ? "The joint choice of forms: " : "", trade.search,
-                     trade.whole_model ? "from vectors" : "given its fields",
-                     trade.whole_model ? "an 18 % grey card lit alike" : "0.18"),
+                     trade.from_vectors ? "from vectors" : "given its arguments",
+                     trade.whole_model ? "an 18 % grey card lit alike" : "0.18",
+                     trade.whole_model ? ", by which frontiers are drawn" : ""),
          Style::faint});
     if (trade.quantization)
         out.paragraphs.push_back({fmt::format("Its packing adds {}, {} codes, to any of these.",

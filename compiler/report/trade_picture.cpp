@@ -34,16 +34,9 @@ struct ErrorAxis {
     }
 };
 
-/// The error that a candidate is judged by; infinite where it has none.
-double error_of(const Candidate& candidate)
-{
-    return candidate.total.not_finite > 0 ? std::numeric_limits<double>::infinity()
-                                          : candidate.total.scaled;
-}
-
 double cost_of(const Trade& trade, const Candidate& candidate, std::size_t family)
 {
-    const analyze::Cost& cost = trade.whole_model ? candidate.from_vectors : candidate.cost;
+    const analyze::Cost& cost = trade.cost_of(candidate);
     return family < cost.families.size() ? cost.families[family].issue
                                          : std::numeric_limits<double>::quiet_NaN();
 }
@@ -53,7 +46,7 @@ ErrorAxis axis_of(const Trade& trade)
     constexpr int most = 10;  // decades; float's own rounding is seven below 1
     ErrorAxis axis{0, -100};
     for (const Candidate& candidate : trade.candidates) {
-        const double error = error_of(candidate);
+        const double error = trade.error_of(candidate);
         if (!std::isfinite(error) || error <= 0) continue;
         axis.low = std::min(axis.low, static_cast<int>(std::floor(std::log10(error))));
         axis.high = std::max(axis.high, static_cast<int>(std::ceil(std::log10(error))));
@@ -108,15 +101,15 @@ std::string_view closing(analyze::Format format)
 std::string hover(const Trade& trade, std::size_t index, std::size_t family)
 {
     const Candidate& candidate = trade.candidates[index];
-    const analyze::Cost& cost = trade.whole_model ? candidate.from_vectors : candidate.cost;
+    const analyze::Cost& cost = trade.cost_of(candidate);
     const analyze::FamilyCost& at = cost.families[family];
     std::string text = fmt::format(
-        "{}: {}\n{} issue cycles ({} vector, {} transcendental), {} registers\nerror {}: model {}, "
-        "rounding {}; {} of 255 codes",
+        "{}: {}\n{} issue cycles ({} vector, {} transcendental), {} registers\nworst error {}: "
+        "model {}, rounding {}; 99 % of points below {}; {} of 255 codes",
         index + 1, analyze::describe(candidate), short_number(at.issue), short_number(at.valu),
         short_number(at.transcendental), at.vgprs, short_number(candidate.total.scaled),
         short_number(candidate.model.scaled), short_number(candidate.rounding.scaled),
-        short_number(candidate.total.codes));
+        short_number(candidate.total.often), short_number(candidate.total.codes));
     if (candidate.total.not_finite > 0)
         text += fmt::format("\nnot a number at {} of {} points",
                             grouped(candidate.total.not_finite), grouped(candidate.total.points));
@@ -188,7 +181,7 @@ private:
         std::string path;
         for (const std::size_t i : frontier()) {
             const double x = column(cost_of(trade_, trade_.candidates[i], family_));
-            const double y = row(error_of(trade_.candidates[i]));
+            const double y = row(trade_.error_of(trade_.candidates[i]));
             // From the top edge down to the cheapest, then along and down from one to the next.
             path += fmt::format("{}{:.1f}{}V{:.1f}", path.empty() ? "M" : "H", x,
                                 path.empty() ? fmt::format(" {:.1f}", y_) : "", y);
@@ -207,7 +200,7 @@ private:
             if (!std::isfinite(cost)) continue;
             const bool on_frontier =
                 family_ < candidate.standing.size() && candidate.standing[family_].on_frontier;
-            const double x = column(cost), y = row(error_of(candidate));
+            const double x = column(cost), y = row(trade_.error_of(candidate));
             std::string& out = on_frontier ? front : back;
             out += fmt::format("<g class=\"{}{}\">{}<title>{}</title>{}", kind_of(candidate),
                                on_frontier ? "" : " dominated", mark(candidate.format, x, y),
@@ -264,7 +257,7 @@ Picture draw(const Trade& trade)
 {
     std::size_t families = 0;
     for (const Candidate& candidate : trade.candidates)
-        families = std::max(families, candidate.cost.families.size());
+        families = std::max(families, trade.cost_of(candidate).families.size());
     Picture out;
     if (families == 0) return out;
     const ErrorAxis axis = axis_of(trade);

@@ -31,7 +31,7 @@ analyze::Candidate candidate(std::string form, double issue, double error, bool 
     out.spelling = optimize::Spelling::stable;
     out.cost = out.from_vectors = cost(issue);
     out.model.scaled = error;
-    out.total.scaled = error;
+    out.total.scaled = out.total.often = error;
     out.total.points = 100;
     out.standing.assign(analyze::all_families.size(),
                         {.on_frontier = on_frontier, .dominated_by = {}});

@@ -1,0 +1,139 @@
+#include "report/pareto.h"
+
+#include "report/verification.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace lobe::report {
+namespace {
+
+using analyze::Candidate;
+using analyze::Deviation;
+using analyze::Family;
+using analyze::Standing;
+using analyze::Trade;
+
+/// Below it a difference over the reals is that of the doubles it was computed in.
+constexpr double least_error = 1e-12;
+
+std::string percent_of(double fraction)
+{
+    if (fraction < least_error) return "0";
+    return fmt::format("{} %", short_number(100 * fraction));
+}
+
+double cycles_of(const Trade& trade, const Candidate& candidate, std::size_t family)
+{
+    const analyze::Cost& cost = trade.cost_of(candidate);
+    return family < cost.families.size() ? cost.families[family].issue
+                                         : std::numeric_limits<double>::infinity();
+}
+
+bool is_shown(const Trade& trade, std::size_t index, std::size_t family)
+{
+    const Candidate& candidate = trade.candidates[index];
+    return index == 0 || candidate.spelling == optimize::Spelling::naive ||
+           family >= candidate.standing.size() || candidate.standing[family].on_frontier;
+}
+
+std::string standing_of(const Trade& trade, const Candidate& candidate, std::size_t family)
+{
+    if (candidate.spelling == optimize::Spelling::naive || family >= candidate.standing.size())
+        return candidate.note;
+    const Standing& standing = candidate.standing[family];
+    std::string text;
+    if (standing.on_frontier)
+        text = "frontier";
+    else if (standing.dominated_by)
+        text = fmt::format("dominated by {}: {}", *standing.dominated_by + 1,
+                           describe(trade.candidates[*standing.dominated_by]));
+    if (!candidate.note.empty()) text += (text.empty() ? "" : "; ") + candidate.note;
+    return text;
+}
+
+std::string not_finite(const Deviation& total)
+{
+    const double share = static_cast<double>(total.not_finite) / static_cast<double>(total.points);
+    return fmt::format("NaN, inf at {} %", short_number(100 * share));
+}
+
+}  // namespace
+
+Table trade_table(const Trade& trade, Family on, bool all)
+{
+    const auto family = static_cast<std::size_t>(on);
+    Table table;
+    table.columns = {{"", true},
+                     {"form; spelling; format"},
+                     {"model", true},
+                     {"rounding", true},
+                     {"worst", true},
+                     {"99 %", true},
+                     {"median", true},
+                     {"codes", true},
+                     {std::string{analyze::name(on)}, true},
+                     {"regs", true},
+                     {""}};
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < trade.candidates.size(); ++i)
+        if (all || !trade.whole_model || is_shown(trade, i, family)) order.push_back(i);
+    std::ranges::stable_sort(
+        order, {}, [&](std::size_t i) { return cycles_of(trade, trade.candidates[i], family); });
+    for (const std::size_t i : order) {
+        const Candidate& candidate = trade.candidates[i];
+        const bool best =
+            family < candidate.standing.size() && candidate.standing[family].on_frontier;
+        const Style style = best ? Style::strong : Style::plain;
+        const analyze::Cost& cost = trade.cost_of(candidate);
+        const bool finite = candidate.total.not_finite == 0;
+        const bool has_cost = family < cost.families.size();
+        table.rows.push_back(
+            {{std::to_string(i + 1), Style::faint},
+             {describe(candidate), style},
+             {percent_of(candidate.model.scaled)},
+             {percent_of(candidate.rounding.scaled)},
+             {finite ? percent_of(candidate.total.scaled) : not_finite(candidate.total),
+              finite ? Style::plain : Style::bad},
+             {percent_of(candidate.total.often)},
+             {percent_of(candidate.total.typical)},
+             {fmt::format("{:.1f}", candidate.total.codes)},
+             {has_cost ? fmt::format("{:.1f}", cost.families[family].issue) : "-", style},
+             {has_cost ? std::to_string(cost.families[family].vgprs) : "-"},
+             {standing_of(trade, candidate, family), best ? Style::good : Style::faint}});
+    }
+    return table;
+}
+
+std::string to_text(const analyze::Pareto& pareto, Family family, bool all, std::string_view path,
+                    std::string_view options, const Look& look)
+{
+    std::string text;
+    for (const Trade& trade : pareto.trades) {
+        const Table table = trade_table(trade, family, all);
+        text +=
+            styled(fmt::format("{}{}: {}", pareto.module.empty() ? "" : pareto.module + ", ",
+                               trade.whole_model ? fmt::format("model {}", trade.name) : trade.name,
+                               trade.search),
+                   Style::strong, look.color);
+        text += fmt::format("\n{}", render(table, look));
+        if (table.rows.size() < trade.candidates.size())
+            text += fmt::format("{} of {} candidates: those on the frontier of {}\n",
+                                table.rows.size(), trade.candidates.size(), analyze::title(family));
+        if (trade.quantization)
+            text += fmt::format("packing: up to {}, {:.1f} codes; median {}\n",
+                                percent_of(trade.quantization->scaled), trade.quantization->codes,
+                                percent_of(trade.quantization->typical));
+        text += styled(fmt::format("lobec pareto {} --{} {}{}", path,
+                                   trade.whole_model ? "model" : "term", trade.name, options),
+                       Style::faint, look.color);
+        text += "\n\n";
+    }
+    return text;
+}
+
+}  // namespace lobe::report

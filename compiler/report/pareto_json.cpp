@@ -1,0 +1,110 @@
+// JSON: every candidate with all that is known of it, for other programs.
+#include "report/markup.h"
+#include "report/pareto.h"
+
+#include <nlohmann/json.hpp>
+
+namespace lobe::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json to_json(const analyze::Deviation& deviation)
+{
+    return {{"worst", json_number(deviation.scaled)},
+            {"below_99_percent", json_number(deviation.often)},
+            {"typical", json_number(deviation.typical)},
+            {"absolute", json_number(deviation.absolute)},
+            {"root_mean_square", json_number(deviation.root_mean_square)},
+            {"codes", json_number(deviation.codes)},
+            {"points", deviation.points},
+            {"not_finite", deviation.not_finite},
+            {"at", deviation.at}};
+}
+
+ordered_json to_json(const analyze::Cost& cost)
+{
+    ordered_json out = ordered_json::object();
+    for (std::size_t i = 0; i < cost.families.size(); ++i) {
+        const analyze::FamilyCost& at = cost.families[i];
+        out[std::string{analyze::name(analyze::all_families[i])}] = {
+            {"issue_cycles", json_number(at.issue)},
+            {"valu", json_number(at.valu)},
+            {"transcendental", json_number(at.transcendental)},
+            {"inverse_throughput", json_number(at.inverse_throughput)},
+            {"latency", json_number(at.latency)},
+            {"vgprs", at.vgprs},
+            {"waves", at.waves}};
+    }
+    out["spirv_instructions"] = cost.spirv_instructions;
+    return out;
+}
+
+ordered_json to_json(const std::vector<analyze::Standing>& standings)
+{
+    ordered_json out = ordered_json::object();
+    for (std::size_t i = 0; i < standings.size(); ++i) {
+        ordered_json& at = out[std::string{analyze::name(analyze::all_families[i])}];
+        at["on_frontier"] = standings[i].on_frontier;
+        if (standings[i].dominated_by) at["dominated_by"] = *standings[i].dominated_by + 1;
+    }
+    return out;
+}
+
+ordered_json to_json(const analyze::Trade& trade, std::size_t index)
+{
+    const analyze::Candidate& candidate = trade.candidates[index];
+    ordered_json forms = ordered_json::object();
+    for (const auto& [term, form] : candidate.choice) forms[term] = form;
+    ordered_json out{{"number", index + 1},
+                     {"name", describe(candidate)},
+                     {"forms", std::move(forms)},
+                     {"spelling", optimize::name(candidate.spelling)},
+                     {"format", analyze::name(candidate.format)},
+                     {"found", candidate.found},
+                     {"selectable", candidate.selectable},
+                     {"error", json_number(trade.error_of(candidate))},
+                     {"model", to_json(candidate.model)},
+                     {"rounding", to_json(candidate.rounding)},
+                     {"total", to_json(candidate.total)}};
+    if (!candidate.note.empty()) out["note"] = candidate.note;
+    if (candidate.proved_rounding) out["proved_rounding"] = json_number(*candidate.proved_rounding);
+    if (candidate.cost.spirv_instructions > 0) out["cost_given_fields"] = to_json(candidate.cost);
+    if (candidate.from_vectors.spirv_instructions > 0)
+        out["cost_from_vectors"] = to_json(candidate.from_vectors);
+    out["standing"] = to_json(candidate.standing);
+    return out;
+}
+
+ordered_json to_json(const analyze::Trade& trade)
+{
+    ordered_json candidates = ordered_json::array();
+    for (std::size_t i = 0; i < trade.candidates.size(); ++i)
+        candidates.push_back(to_json(trade, i));
+    ordered_json out{{"name", trade.name},
+                     {"whole_model", trade.whole_model},
+                     {"judged_from_vectors", trade.from_vectors},
+                     {"search", trade.search}};
+    if (trade.quantization) out["quantization"] = to_json(*trade.quantization);
+    out["candidates"] = std::move(candidates);
+    return out;
+}
+
+}  // namespace
+
+std::string to_json(std::span<const analyze::Pareto> paretos)
+{
+    ordered_json modules = ordered_json::array();
+    for (const analyze::Pareto& pareto : paretos) {
+        ordered_json trades = ordered_json::array();
+        for (const analyze::Trade& trade : pareto.trades) trades.push_back(to_json(trade));
+        ordered_json module{{"module", pareto.module}, {"driver", pareto.about.driver}};
+        if (!pareto.about.no_statistics.empty())
+            module["no_statistics"] = pareto.about.no_statistics;
+        module["trades"] = std::move(trades);
+        modules.push_back(std::move(module));
+    }
+    return ordered_json{{"modules", std::move(modules)}}.dump(2) + "\n";
+}
+
+}  // namespace lobe::report
