@@ -13,6 +13,7 @@ void add_cost(CLI::App& app, const Terminal& terminal, int& status);
 void add_format(CLI::App& app, const Terminal& terminal, int& status);
 void add_evaluate(CLI::App& app, const Terminal& terminal, int& status);
 void add_pack(CLI::App& app, const Terminal& terminal, int& status);
+void add_pareto(CLI::App& app, const Terminal& terminal, int& status);
 void add_patch(CLI::App& app, const Terminal& terminal, int& status);
 void add_verify(CLI::App& app, const Terminal& terminal, int& status);
 void add_explain(CLI::App& app, const Terminal& terminal, int& status);

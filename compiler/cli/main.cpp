@@ -48,6 +48,7 @@ int main(int argc, char** argv)
     add_format(app, terminal, status);
     add_evaluate(app, terminal, status);
     add_pack(app, terminal, status);
+    add_pareto(app, terminal, status);
     add_patch(app, terminal, status);
     add_verify(app, terminal, status);
     add_explain(app, terminal, status);
