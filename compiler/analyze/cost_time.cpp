@@ -1,5 +1,6 @@
 #include "analyze/cost_time.h"
 
+#include "analyze/random.h"
 #include "evaluate/run.h"
 
 #include <algorithm>
@@ -17,11 +18,8 @@ constexpr std::size_t repetitions = 9;
 std::vector<float> plain_numbers(std::size_t count)
 {
     std::vector<float> numbers(count);
-    std::uint32_t state = 1;
-    for (float& number : numbers) {
-        state = state * 1664525U + 1013904223U;  // [Knuth97] 3.3.4, line 26 of table 1
-        number = 0.25F + static_cast<float>(state >> 8) * 0x1p-25F;
-    }
+    Random random{count};
+    for (float& number : numbers) number = static_cast<float>(random.between(0.25, 0.75));
     return numbers;
 }
 
