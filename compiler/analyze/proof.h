@@ -26,13 +26,18 @@ struct NamedBox {
 };
 std::string describe(const NamedBox& box);
 
-/// A proved bound beside the worst that was observed.
+/// A proved bound beside the worst that was observed. It holds wherever rounding turns no decision
+/// (see `jump`).
 struct ErrorBound {
     double absolute = 0;  ///< infinite: none was found
-    double relative = 0;
+    double relative = 0;  ///< of results of at least `Proof::floor`; of smaller ones, of the floor
     double observed_absolute = 0;
     double observed_relative = 0;
     std::string at;  ///< of the greater observed one
+    /// What is added to the absolute error where a condition holds for what was computed and not
+    /// for what was meant, a divisor underflowed, or a result overflowed; 0: that is nowhere.
+    double jump = 0;
+    double observed_jump = 0;
 
     /// The smaller of both bounds' ratios to what was observed; 1 where both are 0.
     double ratio() const;
@@ -48,8 +53,9 @@ struct Proof {
     std::size_t open_not_finite = 0;  ///< and gave NaN or an infinity
     std::optional<NamedBox> over;     ///< for half: the part of the declared box that was proved
     std::string refused;              ///< for half: why no part could be
+    double floor = 0;                 ///< what errors are relative to at least
     ErrorBound ieee;                  ///< CPU float, or half
-    ErrorBound vulkan;                ///< observed: on the device, if there is one
+    ErrorBound vulkan;                ///< on any device; observed: as above
     std::size_t boxes = 0;
     double seconds = 0;  ///< never kept
 };
@@ -57,7 +63,7 @@ struct Proof {
 struct ProofOptions {
     std::vector<evaluate::Precision> precisions{evaluate::Precision::float32,
                                                 evaluate::Precision::float16};
-    std::size_t boxes = std::size_t{1} << 17;  ///< budget of a function
+    std::size_t boxes = std::size_t{1} << 17;  ///< budget of a bound: how often it is computed
     unsigned jobs = 0;
     std::function<void(const Progress&)> progress;
 };

@@ -1,0 +1,174 @@
+#include "evaluate/rounding_bounds.h"
+
+#include "evaluate/rounding_rules.h"
+
+namespace lobe::evaluate {
+namespace {
+
+/// The part of `x` that satisfies the limit. Where there is none the value is not wanted.
+Interval cut(Interval x, Limit::Kind kind, Interval other)
+{
+    switch (kind) {
+    case Limit::Kind::at_least: x.low = std::max(x.low, other.low); break;
+    case Limit::Kind::at_most: x.high = std::min(x.high, other.high); break;
+    case Limit::Kind::size_least:
+        if (x.low > -other.low) x.low = std::max(x.low, other.low);
+        if (x.high < other.low) x.high = std::min(x.high, -other.low);
+        break;
+    }
+    if (x.low > x.high) {
+        if (kind == Limit::Kind::at_most)
+            x.low = x.high;
+        else
+            x.high = x.low;
+    }
+    return x;
+}
+
+/// True for an operand whose error an adjoint may carry in these units.
+bool carries(Interval slope, double error) { return error == 0 || is_bounded(slope); }
+
+Interval scaled(Interval adjoint, Interval slope)
+{
+    return is_bounded(slope) ? multiply(adjoint, slope) : Interval{};
+}
+
+}  // namespace
+
+RoundingBounds::RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor)
+    : tape_{tape}, rounding_{rounding}, floor_{floor}, values_(tape.nodes.size()),
+      steps_(tape.nodes.size()), operands_(tape.nodes.size()), adjoint_(tape.nodes.size())
+{
+    for (std::size_t i = 0; i < tape.nodes.size(); ++i)
+        if (tape.nodes[i].kind == RoundingNode::Kind::literal)
+            values_[i] = rounded_literal(rounding, tape.nodes[i].literal);
+}
+
+Rounded RoundingBounds::limited(const RoundingNode& node, std::size_t operand) const
+{
+    Rounded value = values_[node.operands[operand]];
+    for (const Limit& limit : node.limits) {
+        if (limit.operand != operand) continue;
+        value.exact = cut(value.exact, limit.kind, values_[limit.other].exact);
+        value.computed = cut(value.computed, limit.kind, values_[limit.other].computed);
+    }
+    return value;
+}
+
+void RoundingBounds::forward(std::span<const Interval> box)
+{
+    for (std::size_t i = 0; i < tape_.nodes.size(); ++i) {
+        const RoundingNode& node = tape_.nodes[i];
+        if (node.kind == RoundingNode::Kind::input)
+            values_[i] = rounded_input(rounding_, box[node.input]);
+        if (node.kind != RoundingNode::Kind::operation) continue;
+        const auto arity = static_cast<std::size_t>(node.arity);
+        for (std::size_t k = 0; k < arity; ++k)
+            operands_[i][k] = node.limits.empty() ? values_[node.operands[k]] : limited(node, k);
+        steps_[i] = step(rounding_, node.op, {operands_[i].data(), arity});
+        values_[i] = steps_[i].value;
+    }
+}
+
+double RoundingBounds::backward_absolute()
+{
+    std::ranges::fill(adjoint_, Interval{});
+    adjoint_.back() = {1, 1};
+    double total = 0;
+    for (std::size_t i = tape_.nodes.size(); i-- > 0;) {
+        const Interval adjoint = adjoint_[i];
+        if (adjoint == Interval{}) continue;
+        const RoundingNode& node = tape_.nodes[i];
+        if (node.kind != RoundingNode::Kind::operation) {
+            total += times(size(adjoint), values_[i].absolute);
+            continue;
+        }
+        const Step& step = steps_[i];
+        bool through = is_bounded(adjoint);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k)
+            through = through && carries(step.slopes[k].aa, operands_[i][k].absolute);
+        if (!through) {
+            total += times(size(adjoint), step.value.absolute);
+            continue;
+        }
+        total += times(size(adjoint), step.own_absolute);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k) {
+            Interval& operand = adjoint_[node.operands[k]];
+            operand = add(operand, scaled(adjoint, step.slopes[k].aa));
+        }
+    }
+    return outward(total);
+}
+
+double RoundingBounds::backward_relative()
+{
+    const Rounded& result = values_.back();
+    if (!(result.relative < infinity)) return infinity;
+    std::ranges::fill(adjoint_, Interval{});
+    adjoint_.back() = {1, 1};
+    double total = 0;
+    for (std::size_t i = tape_.nodes.size(); i-- > 0;) {
+        const Interval adjoint = adjoint_[i];
+        if (adjoint == Interval{}) continue;
+        const RoundingNode& node = tape_.nodes[i];
+        const Rounded& value = values_[i];
+        const bool relative = value.relative < infinity;
+        const double whole = relative ? value.relative : value.absolute;
+        if (node.kind != RoundingNode::Kind::operation) {
+            total += times(size(adjoint), whole);
+            continue;
+        }
+        const Step& step = steps_[i];
+        // In which units an operand's error goes on, and whether it can.
+        const auto slope = [&](std::size_t k) {
+            const bool of_relative = operands_[i][k].relative < infinity;
+            const Slope& all = step.slopes[k];
+            return relative ? (of_relative ? all.rr : all.ra) : (of_relative ? all.ar : all.aa);
+        };
+        bool through = is_bounded(adjoint);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k) {
+            const Rounded& x = operands_[i][k];
+            const double error = x.relative < infinity ? x.relative : x.absolute;
+            through = through && carries(slope(k), error);
+            if (!relative && x.relative < infinity && x.underflow > 0)
+                through = through && is_bounded(step.slopes[k].aa);
+        }
+        if (!through) {
+            total += times(size(adjoint), whole);
+            continue;
+        }
+        total += times(size(adjoint), relative ? step.own_relative : step.own_absolute);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k) {
+            const Rounded& x = operands_[i][k];
+            Interval& operand = adjoint_[node.operands[k]];
+            operand = add(operand, scaled(adjoint, slope(k)));
+            if (!relative && x.relative < infinity && x.underflow > 0)
+                total += times(size(adjoint), times(size(step.slopes[k].aa), x.underflow));
+        }
+    }
+    return outward(total);
+}
+
+BoxError RoundingBounds::error(std::span<const Interval> box)
+{
+    forward(box);
+    const Rounded& value = values_.back();
+    BoxError result{value.exact, value.computed, value.absolute, infinity, value.jump};
+    double relative = value.relative;
+    // A device may flush a value for one of its users and not for another: then it has no one
+    // error that could cancel.
+    if (rounding_.machine == Machine::kernels) {
+        result.absolute = std::min(result.absolute, backward_absolute());
+        relative = std::min(relative, backward_relative());
+    }
+    if (relative < infinity) {
+        result.absolute =
+            std::min(result.absolute, outward(relative * size(value.exact) + value.underflow));
+        result.relative = outward(relative + value.underflow / floor_);
+    }
+    result.relative = std::min(
+        result.relative, outward(result.absolute / std::max(least_size(value.exact), floor_)));
+    return result;
+}
+
+}  // namespace lobe::evaluate

@@ -1,0 +1,50 @@
+// The error of a whole tape over one box of inputs.
+//
+// Forward, every value carries its error. Backward, every rounding is an independent unknown and
+// the result's error is the sum of each times its slope ([Solovyev15], in mean value form): there
+// errors that cancel do so, as those of alpha^2 above and below a fraction bar. Both hold; the
+// lesser is told.
+#pragma once
+
+#include "evaluate/rounding.h"
+#include "evaluate/rounding_tape.h"
+
+#include <span>
+#include <vector>
+
+namespace lobe::evaluate {
+
+struct BoxError {
+    Interval exact;
+    Interval computed;
+    double absolute = 0;  ///< |computed - exact|, but for jumps
+    double relative = 0;  ///< |computed - exact| / max(|exact|, floor), but for jumps
+    double jump = 0;      ///< what a turned decision adds
+};
+
+/// A tape made ready for many boxes.
+class RoundingBounds {
+public:
+    RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor);
+
+    /// One interval per input of the tape.
+    BoxError error(std::span<const Interval> box);
+    /// Of the last box, by node.
+    const std::vector<Rounded>& values() const { return values_; }
+
+private:
+    void forward(std::span<const Interval> box);
+    Rounded limited(const RoundingNode& node, std::size_t operand) const;
+    double backward_absolute();
+    double backward_relative();
+
+    const RoundingTape& tape_;
+    const Rounding& rounding_;
+    double floor_;
+    std::vector<Rounded> values_;
+    std::vector<Step> steps_;
+    std::vector<std::array<Rounded, 4>> operands_;
+    std::vector<Interval> adjoint_;
+};
+
+}  // namespace lobe::evaluate
