@@ -1,10 +1,10 @@
 // The ratio of two polynomials that is nearest to a function, by its greatest difference.
 //
-// In: a function of one or two variables, known on a lattice. Out: coefficients. Linear in the
-// numerator and, for a given error, in the denominator: the differential correction algorithm
-// ([Barrodale72]) solves one linear program per step and cannot get worse. A polynomial takes one
-// step, and another one that polishes it. Programs see few of the points; where the result is worse
-// than on those, the worst points join them: Remez' exchange, in any number of variables.
+// In: a function of one or two variables, known on a lattice. Out: coefficients. The differential
+// correction algorithm ([Barrodale72]) solves one linear program per step and gets no worse; a
+// polynomial takes one step, and another one that polishes it. Programs see few of the points;
+// where the result is worse than on those, the worst points join them: Remez' exchange, in any
+// number of variables.
 #pragma once
 
 #include <cstddef>
@@ -65,8 +65,8 @@ inline constexpr double least_denominator = 0x1p-4;
 /// The best fit in places with coordinates in [-1, 1]; nothing where the programs find none.
 std::optional<Fit> best_fit(const Shape& shape, const Samples& samples);
 
-/// A fit with coefficients that are floats: rounded one by one, from the highest power down, each
-/// time making the best of those that are left.
+/// A fit with coefficients that are floats: rounded one by one, the greatest first, since it moves
+/// furthest, each time making the best of those that are left.
 Fit round_to_float(const Shape& shape, const Samples& samples, const Fit& fit);
 
 }  // namespace lobe::analyze

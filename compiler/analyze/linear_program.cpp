@@ -12,6 +12,7 @@ namespace {
 constexpr double tolerance = 1e-9;
 constexpr int optimal = 0;
 constexpr int silent = 0;
+constexpr int unscaled = 0;  // scaled, it calls programs solved that are not
 
 struct Delete {
     void operator()(Clp_Simplex* model) const { Clp_deleteModel(model); }
@@ -57,6 +58,7 @@ std::optional<std::vector<double>> LinearProgram::solve() const
     Clp_loadProblem(model.get(), static_cast<int>(columns), static_cast<int>(rows), starts.data(),
                     indices.data(), elements.data(), low_.data(), high_.data(), cost_.data(),
                     unlimited.data(), limits_.data());
+    Clp_scaling(model.get(), unscaled);
     Clp_setPrimalTolerance(model.get(), tolerance);
     Clp_setDualTolerance(model.get(), tolerance);
     Clp_initialDualSolve(model.get());

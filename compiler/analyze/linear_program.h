@@ -1,4 +1,5 @@
-// A linear program with few unknowns and many inequalities, solved by COIN-OR's Clp.
+// A linear program with few unknowns and many inequalities, solved by COIN-OR's Clp. Whoever states
+// it sees to it that unknowns and rows are of a size of about 1.
 #pragma once
 
 #include <optional>

@@ -1,281 +1,234 @@
 #include "analyze/minimax.h"
 
-#include "analyze/minimax_form.h"
-#include "analyze/surface.h"
+#include "analyze/formula.h"
+#include "analyze/minimax_error.h"
+#include "analyze/minimax_search.h"
 #include "analyze/tasks.h"
+#include "analyze/weight.h"
 #include "evaluate/run.h"
 #include "ir/insert.h"
 #include "optimize/optimize.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <memory>
-#include <mutex>
 
 namespace lobe::analyze {
 namespace {
 
-using evaluate::Tape;
-using evaluate::TapeOp;
 using ir::FunctionId;
 
-/// What an operation weighs: those that a GPU does at a quarter of the rate weigh 4.
-int weight(TapeOp op)
-{
-    switch (op) {
-    case TapeOp::divide:
-    case TapeOp::square_root:
-    case TapeOp::inverse_square_root:
-    case TapeOp::exp2:
-    case TapeOp::log2:
-    case TapeOp::exp:
-    case TapeOp::log:
-    case TapeOp::sine:
-    case TapeOp::cosine:
-    case TapeOp::tangent:
-    case TapeOp::arc_sine:
-    case TapeOp::arc_cosine:
-    case TapeOp::arc_tangent:
-    case TapeOp::normalized:
-    case TapeOp::guarded_normalized:
-    case TapeOp::smoothstep:
-    case TapeOp::guarded_smoothstep: return 4;
-    case TapeOp::power:
-    case TapeOp::guarded_power: return 9;  // a logarithm, a product and an exponential function
-    default: return 1;
+/// A part, what it weighs, and what was found for it.
+struct PartFinds {
+    PartSearch search;
+    int weight = 0;
+    struct Find {
+        NamedShape shape;
+        std::optional<FoundRatio> ratio;
+    };
+    std::vector<Find> finds;
+
+    PartFinds(const ir::Module& module, Part part) : search{module, std::move(part)} {}
+
+    const Find* find(const std::string& shape) const
+    {
+        const auto found = std::ranges::find_if(
+            finds, [&](const Find& f) { return f.shape.name == shape && f.ratio; });
+        return found == finds.end() ? nullptr : &*found;
     }
-}
-
-int weight(const Tape& tape)
-{
-    int result = 0;
-    for (const evaluate::Instruction& step : tape.code) result += weight(step.op);
-    return result;
-}
-
-/// A product and a sum per coefficient but one.
-int weight(const Shape& shape)
-{
-    const auto count = [](std::size_t size) { return 2 * static_cast<int>(size); };
-    const int top = count(shape.numerator.size()) - 2;
-    return shape.denominator.empty()
-               ? top
-               : top + count(shape.denominator.size()) + weight(TapeOp::divide);
-}
+};
 
 /// A term that forms are looked for.
 struct Subject {
     FunctionId term;
     int weight = 0;
-    std::unique_ptr<Surface> surface;
-    std::once_flag sampled;
-    Samples samples;  ///< once sampled
-
-    const Samples& sample()
-    {
-        std::call_once(sampled, [this] { samples = surface->samples(); });
-        return samples;
-    }
+    std::vector<std::unique_ptr<PartFinds>> parts;
 };
 
-bool is_side(const ir::Input& input)
+/// A product and a sum, which are one operation, per coefficient but one.
+int least_weight(const Shape& shape)
 {
-    return input.type == ir::Type::scalar && input.quantity == ir::Quantity::number &&
-           std::isfinite(input.range.low) && std::isfinite(input.range.high) &&
-           input.range.low < input.range.high;
+    const int top = static_cast<int>(shape.numerator.size()) - 1;
+    const int bottom = static_cast<int>(shape.denominator.size());
+    return bottom == 0 ? top : top + bottom + weight_of_division;
 }
 
-std::vector<std::unique_ptr<Subject>> subjects(const ir::Module& checked)
+/// Weights of functions that are not in the module, as they would be after its passes.
+std::vector<int> weights(const ir::Module& module, const std::vector<const ir::Function*>& more,
+                         std::vector<int>* of_module = nullptr)
 {
-    const ir::Module optimized = optimize::optimize(checked);
-    std::vector<std::unique_ptr<Subject>> result;
+    ir::Module probe = module;
+    for (const ir::Function* function : more) {
+        probe.functions.push_back(*function);
+        // No root, whose inputs would be kept whatever it reads.
+        probe.functions.back().module.clear();
+    }
+    const ir::Module optimized = optimize::optimize(probe);
+    std::vector<int> all;
+    for (const ir::Function& function : optimized.functions)
+        all.push_back(weight(evaluate::compile(optimized, function)));
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(module.functions.size());
+    if (of_module) of_module->assign(all.begin(), middle);
+    return {middle, all.end()};
+}
+
+/// Terms with parts that are dearer than a line.
+std::vector<Subject> subjects(const ir::Module& checked)
+{
+    std::vector<Subject> result;
+    std::vector<const ir::Function*> functions;
     for (const FunctionId id : checked.reachable(checked.roots())) {
         const ir::Function& function = checked[id];
-        if (function.kind != ir::Function::Kind::term || function.type() != ir::Type::scalar ||
-            function.quantity != ir::Quantity::number)
-            continue;
-        const std::size_t inputs = function.inputs.size();
-        if (inputs < 1 || inputs > 2 || !std::ranges::all_of(function.inputs, is_side)) continue;
-        auto subject = std::make_unique<Subject>();
-        subject->term = id;
-        subject->weight = weight(evaluate::compile(optimized, optimized[id]));
-        const int linear = 2 * static_cast<int>(inputs);
-        if (subject->weight <= linear) continue;
-        subject->surface = std::make_unique<Surface>(evaluate::compile(checked, function),
-                                                     evaluate::declared_ranges(function));
-        result.push_back(std::move(subject));
+        const bool can_be_said =
+            function.type() == ir::Type::scalar || function.quantity == ir::Quantity::color;
+        if (function.kind != ir::Function::Kind::term || !can_be_said) continue;
+        Subject subject{id, 0, {}};
+        for (Part& part : parts_of(checked, id)) {
+            subject.parts.push_back(std::make_unique<PartFinds>(checked, std::move(part)));
+            functions.push_back(&subject.parts.back()->search.part().function);
+        }
+        if (!subject.parts.empty()) result.push_back(std::move(subject));
     }
+    std::vector<int> of_terms;
+    const std::vector<int> of_parts = weights(checked, functions, &of_terms);
+    std::size_t next = 0;
+    for (Subject& subject : result) {
+        subject.weight = of_terms[subject.term.index];
+        for (auto& part : subject.parts) part->weight = of_parts[next++];
+        std::erase_if(subject.parts, [](const auto& part) {
+            return part->weight <= static_cast<int>(part->search.part().inputs.size());
+        });
+    }
+    std::erase_if(result, [](const Subject& subject) { return subject.parts.empty(); });
     return result;
 }
-
-/// What was found of a shape; kept in the store.
-struct Found {
-    Ratio ratio;
-    double error = 0;
-    double ideal = 0;
-};
-
-std::string to_json(const std::optional<Found>& found)
-{
-    if (!found) return "null";
-    return nlohmann::json{{"numerator", found->ratio.numerator},
-                          {"denominator", found->ratio.denominator},
-                          {"error", found->error},
-                          {"ideal", found->ideal}}
-        .dump();
-}
-
-/// Nothing for `null`, and for what `to_json` did not write.
-std::optional<Found> from_json(const std::string& text)
-{
-    const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_object()) return std::nullopt;
-    Found found;
-    json.at("numerator").get_to(found.ratio.numerator);
-    json.at("denominator").get_to(found.ratio.denominator);
-    json.at("error").get_to(found.error);
-    json.at("ideal").get_to(found.ideal);
-    return found;
-}
-
-/// One search: a shape for a term.
-class Search {
-public:
-    Search(const ir::Module& module, Subject& subject, const NamedShape& shape)
-        : module_{module}, subject_{subject}, shape_{shape}
-    {
-    }
-
-    std::string key() const
-    {
-        const ir::Function& term = module_[subject_.term];
-        std::string result = fmt::format("minimax 1\n{} over", shape_.name);
-        for (const ir::Input& input : term.inputs)
-            result += fmt::format(" [{}, {}]", input.range.low, input.range.high);
-        return fmt::format("{} within [{}, {}]\n{}", result, term.range.low, term.range.high,
-                           evaluate::dump(subject_.surface->tape()));
-    }
-
-    std::optional<Found> run() const
-    {
-        const Samples& samples = subject_.sample();
-        const auto [least, greatest] = std::ranges::minmax(samples.values);
-        if (!std::ranges::all_of(samples.values, [](double v) { return std::isfinite(v); }))
-            return std::nullopt;
-        const double range = greatest - least;
-        // A quarter of the range is what a constant in the middle misses by half of.
-        const double hopeless = range / 4;
-        if (range == 0) return std::nullopt;
-
-        const Samples scaled = with_axes(samples);
-        const auto fit = best_fit(shape_.shape, scaled);
-        if (!fit || !(fit->level < hopeless)) return std::nullopt;
-        const double ideal = greatest_differences(*subject_.surface, samples,
-                                                  [&](std::span<const Place> places) {
-                                                      return ratio_values(fit->ratio, places);
-                                                  })
-                                 .front()
-                                 .size;
-        Found found{round_to_float(shape_.shape, scaled, *fit).ratio, 0, ideal};
-
-        const ir::Function form = minimax_form(module_, subject_.term, shape_, found.ratio);
-        const Surface approximation{evaluate::compile(module_, form), subject_.surface->sides()};
-        const auto worst =
-            greatest_differences(*subject_.surface, samples, [&](std::span<const Place> places) {
-                return approximation.values(places);
-            });
-        const double confirmed = confirm(approximation, worst);
-        // Where double's own error shows, nothing that was measured with it is worth saying.
-        const double doubt = 0.01 * worst.front().size + 1e-12 * range;
-        if (!(std::fabs(confirmed - worst.front().size) <= doubt)) return std::nullopt;
-        found.error = confirmed;
-        if (!(found.error < hopeless)) return std::nullopt;
-        return found;
-    }
-
-private:
-    Place scaled(Place at) const
-    {
-        const auto& inputs = module_[subject_.term].inputs;
-        const auto along = [&](std::size_t i, double value) {
-            if (i >= inputs.size()) return 0.0;
-            const Axis axis = axis_of(inputs[i].range);
-            return (value - axis.center) / axis.scale;
-        };
-        return {along(0, at.x), along(1, at.y)};
-    }
-
-    Samples with_axes(const Samples& samples) const
-    {
-        Samples result = samples;
-        for (Place& place : result.places) place = scaled(place);
-        return result;
-    }
-
-    std::vector<double> ratio_values(const Ratio& ratio, std::span<const Place> places) const
-    {
-        std::vector<double> result;
-        for (const Place place : places)
-            result.push_back(value_at(shape_.shape, ratio, scaled(place)));
-        return result;
-    }
-
-    /// The greatest of the differences again, by MPFR.
-    double confirm(const Surface& approximation, const std::vector<Difference>& worst) const
-    {
-        constexpr std::size_t most = 4;
-        std::vector<Place> places;
-        for (const Difference& difference : worst)
-            if (places.size() < most) places.push_back(difference.at);
-        const auto exact = subject_.surface->confirmed(places);
-        const auto approximate = approximation.confirmed(places);
-        double result = 0;
-        for (std::size_t i = 0; i < places.size(); ++i)
-            result = std::fmax(result, std::fabs(exact[i] - approximate[i]));
-        return result;
-    }
-
-    const ir::Module& module_;
-    Subject& subject_;
-    const NamedShape& shape_;
-};
 
 /// A form, and what it is judged by.
 struct Offer {
     ir::Function function;
     int weight = 0;
-    Found found;
+    FoundForm found;
 };
 
-/// Those of a term that no other one beats in both weight and error.
-std::vector<Offer> worth_offering(std::vector<Offer> offers)
+std::string documentation(double error)
 {
-    std::vector<Offer> result;
-    for (std::size_t i = 0; i < offers.size(); ++i) {
-        const auto beats = [&](const Offer& other, std::size_t j) {
-            const bool as_good =
-                other.weight <= offers[i].weight && other.found.error <= offers[i].found.error;
-            const bool same =
-                other.weight == offers[i].weight && other.found.error == offers[i].found.error;
-            return j != i && as_good && (!same || j < i);
-        };
-        bool beaten = false;
-        for (std::size_t j = 0; j < offers.size(); ++j) beaten = beaten || beats(offers[j], j);
-        if (!beaten) result.push_back(offers[i]);
+    return fmt::format("Found by the compiler: nearest over the declared ranges. Off by up to "
+                       "{:.2g}.",
+                       error);
+}
+
+/// The term with all parts replaced for which a shape was found; nothing where there are none, or
+/// where it errs too much.
+std::optional<Offer> offer_of(const ir::Module& checked, const Subject& subject,
+                              const std::string& shape)
+{
+    const ir::Function& term = checked[subject.term];
+    std::vector<Replacement> replacements;
+    std::vector<Replacement> ideals;
+    std::vector<Held> held;
+    const PartFinds::Find* whole = nullptr;
+    for (const auto& part : subject.parts) {
+        const PartFinds::Find* const find = part->find(shape);
+        if (find == nullptr) continue;
+        const Part& of = part->search.part();
+        replacements.push_back(
+            {of.root, of.inputs, of.function.range, find->shape.shape, find->ratio->ratio});
+        ideals.push_back(replacements.back());
+        ideals.back().ratio = find->ratio->ideal_ratio;
+        held.push_back({of.inputs, find->ratio->places});
+        if (of.root == term.result) whole = find;
     }
+    if (replacements.empty()) return std::nullopt;
+
+    Offer offer;
+    ir::Function& form = offer.function = replaced(checked, term, replacements);
+    form.name = term.name + "_" + shape;
+    form.kind = ir::Function::Kind::form;
+    form.form_of = subject.term;
+    form.form_name = shape;
+    form.declared_range.reset();
+    form.citations.clear();
+    const auto formula = formula_of(checked, form);
+    if (!formula || checked.find(form.name)) return std::nullopt;
+    form.formula = *formula;
+
+    offer.found = {term.name, shape, 0, 0, *formula};
+    if (whole) {
+        offer.found.error = whole->ratio->error;
+        offer.found.ideal = whole->ratio->ideal;
+    } else {
+        const auto error = departure(checked, term, form, held);
+        const auto ideal = departure(checked, term, replaced(checked, term, ideals), held);
+        if (!error || !ideal || !(error->error < hopeless * error->range)) return std::nullopt;
+        offer.found.error = error->error;
+        offer.found.ideal = ideal->error;
+    }
+    form.doc = documentation(offer.found.error);
+    return offer;
+}
+
+/// Those of a term that weigh less than it does, and that no other one beats in both weight and
+/// error.
+std::vector<Offer> worth_offering(std::vector<Offer> offers, int weight_of_term)
+{
+    std::erase_if(offers, [&](const Offer& offer) { return offer.weight >= weight_of_term; });
+    std::ranges::stable_sort(offers, [](const Offer& a, const Offer& b) {
+        return std::pair{a.weight, a.found.error} < std::pair{b.weight, b.found.error};
+    });
+    std::vector<Offer> result;
+    for (Offer& offer : offers)
+        if (result.empty() || offer.found.error < result.back().found.error)
+            result.push_back(std::move(offer));
     return result;
 }
 
-std::string documentation(const NamedShape& shape, const Found& found)
+/// Behind the forms that follow a term.
+FunctionId place_of_forms(const ir::Module& module, FunctionId term)
 {
-    const bool is_ratio = !shape.shape.denominator.empty();
-    return fmt::format("{} of its shape over the declared ranges, found by the compiler. Off by "
-                       "up to {:.2g}.",
-                       is_ratio ? "The best ratio of polynomials" : "The best polynomial",
-                       found.error);
+    FunctionId result = term;
+    while (result.index + 1 < module.functions.size() &&
+           module.functions[result.index + 1].form_of == term)
+        ++result.index;
+    return result;
+}
+
+void search(std::vector<Subject>& subjects, const MinimaxOptions& options, const Store& store)
+{
+    struct Task {
+        PartFinds* part;
+        PartFinds::Find* find;
+    };
+    const std::array all_shapes{shapes(1, options.max_degree), shapes(2, options.max_degree)};
+    std::size_t most = 0;
+    for (Subject& subject : subjects)
+        for (auto& part : subject.parts) {
+            for (const NamedShape& shape : all_shapes[part->search.part().inputs.size() - 1])
+                if (least_weight(shape.shape) < part->weight)
+                    part->finds.push_back({shape, std::nullopt});
+            most = std::max(most, part->finds.size());
+        }
+    // Shape by shape, so that tasks that run at once are of different parts.
+    std::vector<Task> tasks;
+    for (std::size_t i = 0; i < most; ++i)
+        for (Subject& subject : subjects)
+            for (auto& part : subject.parts)
+                if (i < part->finds.size()) tasks.push_back({part.get(), &part->finds[i]});
+    for_each_task(tasks.size(), options.jobs, [&](std::size_t i) {
+        tasks[i].find->ratio = tasks[i].part->search.find(tasks[i].find->shape, store);
+    });
+}
+
+/// Names of shapes of which something was found for a part of the term, in the order of shapes.
+std::vector<std::string> found_shapes(const Subject& subject)
+{
+    std::vector<std::string> result;
+    for (const auto& part : subject.parts)
+        for (const PartFinds::Find& find : part->finds)
+            if (find.ratio && std::ranges::find(result, find.shape.name) == result.end())
+                result.push_back(find.shape.name);
+    return result;
 }
 
 }  // namespace
@@ -283,48 +236,37 @@ std::string documentation(const NamedShape& shape, const Found& found)
 WithFoundForms add_found_forms(const ir::Module& checked, const MinimaxOptions& options,
                                const Store& store)
 {
-    const auto terms = subjects(checked);
-    struct Task {
-        Subject* subject;
-        NamedShape shape;
-        std::optional<Found> found;
-    };
-    // Shape by shape, so that tasks that run at once are of different terms.
-    std::vector<Task> tasks;
-    const std::array all_shapes{shapes(1, options.max_degree), shapes(2, options.max_degree)};
-    for (std::size_t i = 0; i < std::max(all_shapes[0].size(), all_shapes[1].size()); ++i)
-        for (const auto& subject : terms) {
-            const auto& mine = all_shapes[checked[subject->term].inputs.size() - 1];
-            if (i < mine.size() && weight(mine[i].shape) < subject->weight)
-                tasks.push_back({subject.get(), mine[i], {}});
-        }
-    for_each_task(tasks.size(), options.jobs, [&](std::size_t i) {
-        const Search search{checked, *tasks[i].subject, tasks[i].shape};
-        tasks[i].found =
-            from_json(kept(store, search.key(), [&] { return to_json(search.run()); }));
+    std::vector<Subject> terms = subjects(checked);
+    search(terms, options, store);
+
+    std::vector<std::pair<const Subject*, std::string>> tries;
+    for (const Subject& subject : terms)
+        for (std::string& shape : found_shapes(subject))
+            tries.emplace_back(&subject, std::move(shape));
+    std::vector<std::optional<Offer>> offers(tries.size());
+    for_each_task(tries.size(), options.jobs, [&](std::size_t i) {
+        offers[i] = offer_of(checked, *tries[i].first, tries[i].second);
     });
+
+    std::vector<const ir::Function*> functions;
+    for (const auto& offer : offers)
+        if (offer) functions.push_back(&offer->function);
+    const std::vector<int> weighed = weights(checked, functions);
 
     WithFoundForms result;
     std::vector<ir::Insertion> insertions;
-    for (const auto& subject : terms) {
-        std::vector<Offer> offers;
-        for (const Task& task : tasks) {
-            if (task.subject != subject.get() || !task.found) continue;
-            Offer offer{minimax_form(checked, subject->term, task.shape, task.found->ratio), 0,
-                        *task.found};
-            offer.weight = weight(evaluate::compile(checked, offer.function));
-            offer.function.doc = documentation(task.shape, *task.found);
-            if (offer.weight < subject->weight && !checked.find(offer.function.name))
-                offers.push_back(std::move(offer));
+    std::size_t next = 0;
+    std::size_t i = 0;
+    for (const Subject& subject : terms) {
+        std::vector<Offer> mine;
+        for (; i < tries.size() && tries[i].first == &subject; ++i) {
+            if (!offers[i]) continue;
+            mine.push_back(std::move(*offers[i]));
+            mine.back().weight = weighed[next++];
         }
-        // Behind the forms that follow the term.
-        FunctionId after = subject->term;
-        while (after.index + 1 < checked.functions.size() &&
-               checked.functions[after.index + 1].form_of == subject->term)
-            ++after.index;
-        for (Offer& offer : worth_offering(std::move(offers))) {
-            result.found.push_back({checked[subject->term].name, offer.function.form_name,
-                                    offer.found.error, offer.found.ideal, offer.function.formula});
+        const FunctionId after = place_of_forms(checked, subject.term);
+        for (Offer& offer : worth_offering(std::move(mine), subject.weight)) {
+            result.found.push_back(std::move(offer.found));
             insertions.push_back({after, std::move(offer.function)});
         }
     }

@@ -1,9 +1,9 @@
-// Forms that the compiler finds itself: best polynomial and rational approximations of terms of one
-// or two arguments over their declared ranges.
+// Forms that the compiler finds itself: best polynomials and ratios of polynomials in the place of
+// terms, and of parts of terms, that depend on one or two scalars, over their declared ranges.
 //
-// Least greatest error, by Remez' exchange in one variable and a linear program in two;
-// coefficients are rounded to float and the error is measured again with what they became. What
-// comes out is an ordinary form, with its error in its documentation.
+// Least greatest error, by linear programs with Remez' exchange; coefficients are rounded to float
+// and the error is measured again with what they became. What comes out is an ordinary form, with
+// its error in its documentation. docs/forms.md tells what is tried, and what is dropped.
 #pragma once
 
 #include "analyze/store.h"
@@ -24,14 +24,15 @@ struct MinimaxOptions {
 struct FoundForm {
     std::string term;
     std::string form;     ///< `minimax_3`, `minimax_2_2`
-    double error = 0;     ///< greatest, absolute, with rounded coefficients, over the reals
+    double error = 0;     ///< greatest of any component, absolute, with rounded coefficients, over
+                          ///< the reals; observed
     double ideal = 0;     ///< the same before they were rounded
     std::string formula;  ///< as a .lobe expression: it can be pasted into a model
 };
 
 /// The checked module with found forms added to its terms (and imported ones that it reaches),
-/// after their own. Terms whose definition is no dearer than a polynomial of degree 1 are left
-/// alone.
+/// behind their own. Parts that are no dearer than a polynomial of degree 1 are left alone. The
+/// same whatever the number of threads.
 struct WithFoundForms {
     ir::Module module;
     std::vector<FoundForm> found;

@@ -14,148 +14,116 @@ namespace {
 using ir::ExprId;
 using ir::Op;
 
-/// How tightly a text binds: what needs parentheses where.
-enum class Binding : std::uint8_t {
-    sum,
-    product,
-    operand
-};
-
-/// An expression, and how it is written.
-struct Spelled {
-    ExprId id;
-    std::string text;
-    Binding binding = Binding::operand;
-};
-
-std::string in(const Spelled& spelled, Binding least)
-{
-    return spelled.binding >= least ? spelled.text : "(" + spelled.text + ")";
-}
-
-/// Writes a form: every operation once into the graph and once into the text. Read back, the text
-/// is the graph again, operation by operation.
+/// Writes ratios into a graph, in some inputs of its function.
 class Writer {
 public:
-    explicit Writer(ir::Graph& graph) : graph_{graph} {}
-
-    Spelled input(const ir::Function& function, std::uint32_t index)
+    Writer(const ir::Module& module, ir::Function& function,
+           const std::vector<std::uint32_t>& inputs)
+        : module_{module}, function_{function}, graph_{function.graph}
     {
-        const ir::Input& input = function.inputs[index];
-        const std::string_view of = input.origin == ir::Origin::geometry  ? "g."
-                                    : input.origin == ir::Origin::surface ? "s."
-                                                                          : "";
-        return {graph_.input(index, input.type), fmt::format("{}{}", of, input.name)};
+        for (const std::uint32_t input : inputs) {
+            axes_.push_back(axis_of(function.inputs[input].range));
+            const ExprId x = graph_.input(input, ir::Type::scalar);
+            const double center = axes_.back().center;
+            variables_.push_back(center == 0 ? x
+                                             : graph_.apply(Op::subtract, {x, literal(center)}));
+        }
     }
 
+    ExprId write(const Shape& shape, const Ratio& ratio, ir::Range range)
+    {
+        const ExprId top = polynomial(shape.numerator, ratio.numerator);
+        if (shape.denominator.empty()) return held(top, range);
+        std::vector<Powers> powers{{0, 0}};
+        std::vector<double> coefficients{1};
+        powers.insert(powers.end(), shape.denominator.begin(), shape.denominator.end());
+        coefficients.insert(coefficients.end(), ratio.denominator.begin(), ratio.denominator.end());
+        const ExprId bottom =
+            held(polynomial(powers, coefficients), {least_denominator / 2, HUGE_VAL});
+        return held(graph_.apply(Op::divide, {top, bottom}), range);
+    }
+
+private:
     /// The shortest text of a float; a double that is none needs the digits of a double.
-    Spelled number(double value)
+    ExprId literal(double value)
     {
         const auto nearest = static_cast<float>(value);
-        const std::string text =
-            ir::canonical_number(static_cast<double>(nearest) == value ? fmt::format("{}", nearest)
-                                                                       : fmt::format("{}", value));
-        return {graph_.literal(text), text, value < 0 ? Binding::sum : Binding::operand};
+        return graph_.literal(ir::canonical_number(static_cast<double>(nearest) == value
+                                                       ? fmt::format("{}", nearest)
+                                                       : fmt::format("{}", value)));
     }
 
-    Spelled add(const Spelled& a, const Spelled& b) { return sum(Op::add, a, " + ", b); }
-    Spelled subtract(const Spelled& a, const Spelled& b) { return sum(Op::subtract, a, " - ", b); }
-    Spelled multiply(const Spelled& a, const Spelled& b)
+    ExprId held(ExprId x, ir::Range range)
     {
-        return product(Op::multiply, a, " * ", b);
-    }
-    Spelled divide(const Spelled& a, const Spelled& b) { return product(Op::divide, a, " / ", b); }
-
-    /// Held where intervals do not show that it is.
-    Spelled held(const Spelled& x, evaluate::Interval known, ir::Range range)
-    {
+        function_.result = x;
+        const evaluate::Interval known =
+            evaluate::ranges(module_, function_, evaluate::declared_ranges(function_))[x];
         const bool low = known.low < range.low;
         const bool high = known.high > range.high;
         if (!low && !high) return x;
-        if (range == ir::Range{0, 1}) return call(Op::saturate, "saturate", {x});
-        if (!high) return call(Op::maximum, "max", {x, number(range.low)});
-        if (!low) return call(Op::minimum, "min", {x, number(range.high)});
-        return call(Op::clamp, "clamp", {x, number(range.low), number(range.high)});
+        if (range == ir::Range{0, 1}) return graph_.apply(Op::saturate, {x});
+        if (!high) return graph_.apply(Op::maximum, {x, literal(range.low)});
+        if (!low) return graph_.apply(Op::minimum, {x, literal(range.high)});
+        return graph_.apply(Op::clamp, {x, literal(range.low), literal(range.high)});
     }
 
+    using Coefficients = std::vector<std::optional<ExprId>>;
+
     /// c0 + x * (c1 + x * (c2 + ...)); what is absent is 0.
-    std::optional<Spelled> horner(const Spelled& x,
-                                  const std::vector<std::optional<Spelled>>& coefficients)
+    std::optional<ExprId> horner(ExprId x, const Coefficients& coefficients)
     {
-        std::optional<Spelled> result;
+        std::optional<ExprId> result;
         for (std::size_t i = coefficients.size(); i-- > 0;) {
-            if (result) result = multiply(x, *result);
+            if (result)
+                result =
+                    graph_.is_literal(*result, 1) ? x : graph_.apply(Op::multiply, {x, *result});
             if (!coefficients[i]) continue;
-            result = result ? add(*coefficients[i], *result) : coefficients[i];
+            result = result ? graph_.apply(Op::add, {*coefficients[i], *result}) : coefficients[i];
         }
         return result;
     }
 
-private:
-    Spelled sum(Op op, const Spelled& a, std::string_view sign, const Spelled& b)
-    {
-        return {graph_.apply(op, {a.id, b.id}),
-                fmt::format("{}{}{}", a.text, sign, in(b, Binding::product)), Binding::sum};
-    }
-    Spelled product(Op op, const Spelled& a, std::string_view sign, const Spelled& b)
-    {
-        return {graph_.apply(op, {a.id, b.id}),
-                fmt::format("{}{}{}", in(a, Binding::product), sign, in(b, Binding::operand)),
-                Binding::product};
-    }
-    Spelled call(Op op, std::string_view name, const std::vector<Spelled>& operands)
-    {
-        std::vector<ExprId> ids;
-        std::string list;
-        for (const Spelled& spelled : operands) {
-            ids.push_back(spelled.id);
-            list += (list.empty() ? "" : ", ") + spelled.text;
-        }
-        return {graph_.apply(op, ids), fmt::format("{}({})", name, list)};
-    }
-
-    ir::Graph& graph_;
-};
-
-/// A polynomial of the shape, with coefficients in units of the inputs.
-class Polynomials {
-public:
-    Polynomials(Writer& writer, const ir::Function& function) : writer_{writer}
-    {
-        for (std::uint32_t i = 0; i < function.inputs.size(); ++i) {
-            axes_.push_back(axis_of(function.inputs[i].range));
-            const Spelled input = writer.input(function, i);
-            const double center = axes_.back().center;
-            variables_.push_back(center == 0 ? input
-                                             : writer.subtract(input, writer.number(center)));
-        }
-    }
-
     /// Nested: Horner's scheme in the second variable over polynomials in the first.
-    Spelled write(const std::vector<Powers>& powers, const std::vector<double>& coefficients)
+    ExprId polynomial(const std::vector<Powers>& powers, const std::vector<double>& coefficients)
     {
-        std::vector<std::vector<std::optional<Spelled>>> rows;
+        std::vector<Coefficients> rows;
         for (std::size_t i = 0; i < powers.size(); ++i) {
             const auto x = static_cast<std::size_t>(powers[i].x);
             const auto y = static_cast<std::size_t>(powers[i].y);
-            double coefficient = coefficients[i] / std::pow(axes_[0].scale, powers[i].x);
-            if (y > 0) coefficient /= std::pow(axes_[1].scale, powers[i].y);
+            double coefficient = coefficients[i] / std::pow(axes_.front().scale, powers[i].x) /
+                                 std::pow(axes_.back().scale, powers[i].y);
             if (coefficient == 0) continue;
             if (rows.size() <= y) rows.resize(y + 1);
             if (rows[y].size() <= x) rows[y].resize(x + 1);
-            rows[y][x] = writer_.number(coefficient);
+            rows[y][x] = literal(coefficient);
         }
-        std::vector<std::optional<Spelled>> outer;
-        for (const auto& row : rows) outer.push_back(writer_.horner(variables_[0], row));
-        const auto result = writer_.horner(variables_.back(), outer);
-        return result ? *result : writer_.number(0);
+        Coefficients outer;
+        for (const Coefficients& row : rows) outer.push_back(horner(variables_.front(), row));
+        const auto result = horner(variables_.back(), outer);
+        return result ? *result : literal(0);
     }
 
-private:
-    Writer& writer_;
+    const ir::Module& module_;
+    ir::Function& function_;
+    ir::Graph& graph_;
     std::vector<Axis> axes_;
-    std::vector<Spelled> variables_;
+    std::vector<ExprId> variables_;
 };
+
+/// What the result needs of the old graph, up to what is replaced.
+std::vector<bool> needed(const ir::Function& function, const std::vector<Replacement>& replacements)
+{
+    std::vector<bool> result(function.graph.size(), false);
+    result[function.result.index] = true;
+    for (std::size_t i = function.graph.size(); i-- > 0;) {
+        const ExprId id{i};
+        if (!result[i] ||
+            std::ranges::find(replacements, id, &Replacement::root) != replacements.end())
+            continue;
+        for (const ExprId operand : function.graph.operands(id)) result[operand.index] = true;
+    }
+    return result;
+}
 
 std::vector<Powers> of_degree(std::size_t inputs, int degree)
 {
@@ -206,50 +174,36 @@ std::vector<NamedShape> shapes(std::size_t inputs, int max_degree)
 {
     std::vector<NamedShape> result;
     for (int degree = 2; degree <= max_degree; ++degree)
-        if (inputs == 1 || degree <= 4) result.push_back(polynomial(inputs, degree));
+        result.push_back(polynomial(inputs, degree));
     if (inputs == 2)
-        for (int degree = 2; degree <= std::min(3, max_degree / 2); ++degree)
-            result.push_back(tensor(degree));
-    for (const auto& [top, bottom] : {std::pair{1, 1}, {2, 1}, {1, 2}, {2, 2}, {3, 2}})
-        if (top + bottom <= max_degree && (inputs == 1 || top < 3))
-            result.push_back(ratio(inputs, top, bottom));
+        for (int degree = 2; 2 * degree <= max_degree; ++degree) result.push_back(tensor(degree));
+    for (const auto& [top, bottom] :
+         {std::pair{1, 1}, {2, 1}, {1, 2}, {2, 2}, {3, 2}, {2, 3}, {3, 3}})
+        if (top + bottom <= max_degree) result.push_back(ratio(inputs, top, bottom));
     return result;
 }
 
-ir::Function minimax_form(const ir::Module& module, ir::FunctionId term, const NamedShape& shape,
-                          const Ratio& ratio)
+ir::Function replaced(const ir::Module& module, const ir::Function& function,
+                      const std::vector<Replacement>& replacements)
 {
-    const ir::Function& of = module[term];
-    ir::Function form = ir::without_body(of);
-    form.name = of.name + "_" + shape.name;
-    form.kind = ir::Function::Kind::form;
-    form.form_of = term;
-    form.form_name = shape.name;
-    form.declared_range.reset();
-    form.citations.clear();
-    form.inputs = of.inputs;
-
-    const auto range_of = [&](const Spelled& x) {
-        form.result = x.id;
-        return evaluate::ranges(module, form, evaluate::declared_ranges(form))[x.id];
-    };
-    Writer writer{form.graph};
-    Polynomials polynomials{writer, form};
-    Spelled value = polynomials.write(shape.shape.numerator, ratio.numerator);
-    if (!shape.shape.denominator.empty()) {
-        std::vector<Powers> powers{{0, 0}};
-        std::vector<double> coefficients{1};
-        powers.insert(powers.end(), shape.shape.denominator.begin(), shape.shape.denominator.end());
-        coefficients.insert(coefficients.end(), ratio.denominator.begin(), ratio.denominator.end());
-        const Spelled bottom = polynomials.write(powers, coefficients);
-        value = writer.divide(
-            value, writer.held(bottom, range_of(bottom), {least_denominator / 2, HUGE_VAL}));
+    ir::Function result = ir::without_body(function);
+    result.inputs = function.inputs;
+    const std::vector<bool> wanted = needed(function, replacements);
+    Facts<ir::Expr, ExprId> moved(function.graph.size());
+    for (const ExprId id : function.graph.ids()) {
+        if (!wanted[id.index]) continue;
+        const auto found = std::ranges::find(replacements, id, &Replacement::root);
+        if (found != replacements.end()) {
+            Writer writer{module, result, found->inputs};
+            moved[id] = writer.write(found->shape, found->ratio, found->range);
+            continue;
+        }
+        std::vector<ExprId> operands;
+        for (const ExprId operand : function.graph.operands(id)) operands.push_back(moved[operand]);
+        moved[id] = result.graph.copy(function.graph, id, operands);
     }
-    value = writer.held(value, range_of(value), of.range);
-    form.formula = value.text;
-    const evaluate::Interval known = range_of(value);
-    form.range = {std::fmax(known.low, of.range.low), std::fmin(known.high, of.range.high)};
-    return form;
+    result.result = moved[function.result];
+    return result;
 }
 
 }  // namespace lobe::analyze

@@ -1,10 +1,10 @@
-// A ratio of polynomials as a form of a term: Horner's scheme in the graph, and the same as text
-// that can be pasted into a model.
+// Ratios of polynomials in the place of expressions: Horner's scheme in a graph.
 #pragma once
 
 #include "analyze/fit.h"
 #include "ir/module.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,15 +24,23 @@ struct NamedShape {
     std::string name;
     Shape shape;
 };
-/// Those that are tried for terms of one or two inputs, cheapest first: polynomials up to a (total)
-/// degree or with a degree per input, and ratios.
+/// Those that are tried for parts of one or two inputs: polynomials up to a (total) degree or with
+/// a degree per input, and ratios of two with as much together.
 std::vector<NamedShape> shapes(std::size_t inputs, int max_degree);
 
-/// The form of a term that computes a ratio whose coefficients are floats. Where intervals do not
-/// show that it stays within the term's range, it is held there, so that whatever was proved of
-/// those who call the term holds with the form; likewise the denominator is held above its least
-/// value. Its documentation, and what it is proved to be in, are still to be written.
-ir::Function minimax_form(const ir::Module& module, ir::FunctionId term, const NamedShape& shape,
-                          const Ratio& ratio);
+/// What comes in place of an expression of a function: a ratio of one or two of its inputs.
+struct Replacement {
+    ir::ExprId root;
+    std::vector<std::uint32_t> inputs;
+    ir::Range range{};  ///< what the expression was known to lie in
+    Shape shape;
+    Ratio ratio;  ///< in units of the axes
+};
+
+/// A function with some of its expressions replaced. Where intervals do not show that a replacement
+/// stays in its range it is held there, so that what was proved of whoever reads it still holds;
+/// likewise a denominator is held above half its least value.
+ir::Function replaced(const ir::Module& module, const ir::Function& function,
+                      const std::vector<Replacement>& replacements);
 
 }  // namespace lobe::analyze

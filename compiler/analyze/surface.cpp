@@ -116,7 +116,7 @@ Samples Surface::samples() const
     if (sides_.size() == 2) {
         // A long tape, such as a quadrature, is asked at fewer places: about two seconds at most.
         constexpr std::size_t most_operations = std::size_t{1} << 31;
-        result.width = 129;
+        result.width = 257;
         while (result.width > 33 &&
                tape_.code.size() * result.width * result.width > most_operations)
             result.width = result.width / 2 + 1;
@@ -134,7 +134,7 @@ Samples Surface::samples() const
 std::vector<Difference> greatest_differences(const Surface& surface, const Samples& samples,
                                              const OtherValues& other)
 {
-    constexpr std::size_t most_peaks = 16;
+    constexpr std::size_t most_peaks = 64;
     constexpr int rounds = 3;
     constexpr std::size_t lines = 9;
 
