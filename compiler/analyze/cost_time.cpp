@@ -12,7 +12,11 @@ namespace lobe::analyze {
 namespace {
 
 /// The least of so many is what the machine takes when nothing else disturbs it.
-constexpr std::size_t repetitions = 9;
+constexpr std::size_t repetitions = 31;
+
+/// Enough for every core of a software device, and so few that a dispatch is over within a
+/// millisecond or so, between two disturbances.
+constexpr std::uint32_t points_per_dispatch = 1U << 16;
 
 /// Between 1/4 and 3/4, each different: nothing that hardware or a driver treats in a special way.
 std::vector<float> plain_numbers(std::size_t count)
@@ -28,9 +32,9 @@ bool is_long(const Chain& chain) { return chain.copies < 8; }
 }  // namespace
 
 std::optional<double> DeviceClock::slope(const emit::Evaluation& evaluation,
-                                         emit::NumberFormat format, int copies, int chains,
-                                         std::uint32_t points)
+                                         emit::NumberFormat format, int copies, int chains)
 {
+    constexpr std::uint32_t points = points_per_dispatch;
     const std::vector<float> input =
         plain_numbers(static_cast<std::size_t>(evaluation.inputs) * points);
     const auto time = [&](int length) {
@@ -49,9 +53,8 @@ std::optional<double> DeviceClock::link(const Chain& chain)
 {
     constexpr int copies = 16;
     constexpr int chains = 4;
-    constexpr std::uint32_t points = 1U << 18;
     const auto timed = [&](const emit::Evaluation& evaluation) {
-        return slope(evaluation, chain.format, copies, chains, points);
+        return slope(evaluation, chain.format, copies, chains);
     };
     const int results = static_cast<int>(chain.evaluation.results.size());
     const auto known = links_.find({chain.format, results});
@@ -74,8 +77,7 @@ std::optional<double> DeviceClock::link(const Chain& chain)
 std::optional<double> DeviceClock::nanoseconds(const Chain& chain)
 {
     // Short evaluations need company, or a core waits for each one's end.
-    const auto whole = slope(chain.evaluation, chain.format, chain.copies, is_long(chain) ? 1 : 4,
-                             is_long(chain) ? 1U << 16 : 1U << 18);
+    const auto whole = slope(chain.evaluation, chain.format, chain.copies, is_long(chain) ? 1 : 4);
     const auto links = link(chain);
     if (!whole || !links) return std::nullopt;
     const int evaluations = chain.format == emit::NumberFormat::packed16 ? 2 : 1;

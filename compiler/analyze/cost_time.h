@@ -23,7 +23,7 @@ public:
 
 private:
     std::optional<double> slope(const emit::Evaluation& evaluation, emit::NumberFormat format,
-                                int copies, int chains, std::uint32_t points);
+                                int copies, int chains);
     std::optional<double> link(const Chain& chain);
 
     device::Device device_;
