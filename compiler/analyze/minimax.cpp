@@ -169,17 +169,18 @@ std::optional<Offer> offer_of(const ir::Module& checked, const Subject& subject,
     return offer;
 }
 
-/// Those of a term that weigh less than it does, and that no other one beats in both weight and
-/// error.
+/// Those of a term that weigh less than it does, each with an error smaller by a tenth and more
+/// than that of any lighter one.
 std::vector<Offer> worth_offering(std::vector<Offer> offers, int weight_of_term)
 {
     std::erase_if(offers, [&](const Offer& offer) { return offer.weight >= weight_of_term; });
     std::ranges::stable_sort(offers, [](const Offer& a, const Offer& b) {
         return std::pair{a.weight, a.found.error} < std::pair{b.weight, b.found.error};
     });
+    constexpr double worth_its_weight = 0.9;
     std::vector<Offer> result;
     for (Offer& offer : offers)
-        if (result.empty() || offer.found.error < result.back().found.error)
+        if (result.empty() || offer.found.error < worth_its_weight * result.back().found.error)
             result.push_back(std::move(offer));
     return result;
 }
