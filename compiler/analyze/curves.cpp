@@ -29,7 +29,7 @@ ir::Code code_like(Kind kind, const char* name)
 }
 
 /// Every value that has to survive lies on a code.
-bool keeps_values(const Subject& subject, const Placed& placed, const CurvePoint& point)
+bool keeps_values(const CodeSearch& subject, const Placed& placed, const CurvePoint& point)
 {
     for (int k = 0; k < placed.components; ++k) {
         const ir::Field field = field_of(placed, k, point);
@@ -39,7 +39,7 @@ bool keeps_values(const Subject& subject, const Placed& placed, const CurvePoint
     return true;
 }
 
-std::vector<CurvePoint> candidates(const Subject& subject, const Placed& placed, int bits)
+std::vector<CurvePoint> candidates(const CodeSearch& subject, const Placed& placed, int bits)
 {
     std::vector<CurvePoint> found;
     const auto consider = [&](bool is_signed, const ir::Code& code) {
@@ -101,7 +101,7 @@ std::vector<CurvePoint> candidates(const Subject& subject, const Placed& placed,
     return found;
 }
 
-Fitted with_steps(const Subject& subject, const Placed& placed, const CurvePoint& point)
+Fitted with_steps(const CodeSearch& subject, const Placed& placed, const CurvePoint& point)
 {
     Fitted fitted{point, {}, {}};
     for (int k = 0; k < placed.components; ++k) {
@@ -123,7 +123,7 @@ Fitted with_steps(const Subject& subject, const Placed& placed, const CurvePoint
     return fitted;
 }
 
-StoredAs stored_alone(const Subject& subject, const Placed& placed, const Fitted& fitted)
+StoredAs stored_alone(const CodeSearch& subject, const Placed& placed, const Fitted& fitted)
 {
     StoredAs stored(subject.box.width(), nullptr);
     for (std::size_t k = 0; k < placed.coordinates.size(); ++k)
@@ -149,9 +149,9 @@ ir::Field field_of(const Placed& placed, int component, const CurvePoint& point)
     return field;
 }
 
-Subject subject_of(const ir::Module& module, const ir::Packing& from, std::vector<Placed> placed)
+CodeSearch subject_of(const ir::Module& module, const ir::Packing& from, std::vector<Placed> placed)
 {
-    Subject subject;
+    CodeSearch subject;
     subject.packing = from;
     subject.packing.fields.clear();
     subject.packing.channels.clear();
@@ -192,8 +192,9 @@ Subject subject_of(const ir::Module& module, const ir::Packing& from, std::vecto
     return subject;
 }
 
-std::vector<FittedCurve> fit_curves(const Subject& subject, const std::vector<std::size_t>& which,
-                                    BitRange range, unsigned jobs)
+std::vector<FittedCurve> fit_curves(const CodeSearch& subject,
+                                    const std::vector<std::size_t>& which, BitRange range,
+                                    unsigned jobs)
 {
     struct Look {
         std::size_t curve = 0;  ///< index into `which`

@@ -24,7 +24,7 @@ struct Placed {
 };
 
 /// All that a search for codes needs to know.
-struct Subject {
+struct CodeSearch {
     ir::Module bare;      ///< parameters, and the functions of declared codes
     ir::Packing packing;  ///< model, measured ranges, required values; no fields
     std::vector<Placed> placed;
@@ -32,7 +32,8 @@ struct Subject {
 };
 
 /// `module` as checked. Parameters that are neither placed nor measured are at their defaults.
-Subject subject_of(const ir::Module& module, const ir::Packing& from, std::vector<Placed> placed);
+CodeSearch subject_of(const ir::Module& module, const ir::Packing& from,
+                      std::vector<Placed> placed);
 
 /// One option: so many bits with this code, and the point where it is worst.
 struct Fitted {
@@ -50,7 +51,8 @@ struct BitRange {
     int least = 1;
     int most = 0;
 };
-std::vector<FittedCurve> fit_curves(const Subject& subject, const std::vector<std::size_t>& which,
-                                    BitRange bits, unsigned jobs);
+std::vector<FittedCurve> fit_curves(const CodeSearch& subject,
+                                    const std::vector<std::size_t>& which, BitRange bits,
+                                    unsigned jobs);
 
 }  // namespace lobe::analyze

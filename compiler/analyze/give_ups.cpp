@@ -30,13 +30,13 @@ int bits_in(const std::vector<ir::Slot>& room)
 struct Alternative {
     int kind = 0;
     std::string what;
-    Subject subject;
+    CodeSearch subject;
     std::vector<FittedCurve> curves;
     int bits = 0;
 };
 
 /// Channels of the engine's that may be taken if the pixel does without their contents.
-void add_lent_channels(const ir::Module& module, const Subject& subject,
+void add_lent_channels(const ir::Module& module, const CodeSearch& subject,
                        const std::vector<FittedCurve>& curves, const SuggestOptions& options,
                        std::deque<Alternative>& out)
 {
@@ -87,7 +87,7 @@ double nearer(double from, double end)
 
 /// The placed parameters by their error alone, largest first; where nothing fits, by the bits that
 /// they need.
-std::vector<std::size_t> costly_first(const Subject& subject,
+std::vector<std::size_t> costly_first(const CodeSearch& subject,
                                       const std::vector<FittedCurve>& curves, const Best& best)
 {
     std::vector<std::pair<double, std::size_t>> ranked;
@@ -106,7 +106,7 @@ std::vector<std::size_t> costly_first(const Subject& subject,
 }
 
 /// Half of the range at one end, if the default and what must be exact stay inside.
-std::optional<ir::Range> halved(const ir::Module& module, const Subject& subject,
+std::optional<ir::Range> halved(const ir::Module& module, const CodeSearch& subject,
                                 const Placed& placed, bool upper)
 {
     const auto& standard = module.parameters[placed.parameter].default_value;
@@ -125,7 +125,7 @@ std::optional<ir::Range> halved(const ir::Module& module, const Subject& subject
     return range;
 }
 
-void add_narrower_ranges(const ir::Module& module, const Subject& subject,
+void add_narrower_ranges(const ir::Module& module, const CodeSearch& subject,
                          const std::vector<FittedCurve>& curves, const SuggestOptions& options,
                          const Best& best, std::deque<Alternative>& out)
 {
@@ -159,7 +159,7 @@ void add_narrower_ranges(const ir::Module& module, const Subject& subject,
     }
 }
 
-void add_dropped_parameters(const ir::Module& module, const Subject& subject,
+void add_dropped_parameters(const ir::Module& module, const CodeSearch& subject,
                             const std::vector<FittedCurve>& curves, const SuggestOptions& options,
                             std::deque<Alternative>& out)
 {
@@ -183,7 +183,7 @@ void add_dropped_parameters(const ir::Module& module, const Subject& subject,
 
 }  // namespace
 
-std::vector<std::string> give_ups(const ir::Module& module, const Subject& subject,
+std::vector<std::string> give_ups(const ir::Module& module, const CodeSearch& subject,
                                   const std::vector<FittedCurve>& curves,
                                   const SuggestOptions& options, const Best& best)
 {

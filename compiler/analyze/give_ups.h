@@ -18,7 +18,7 @@ struct Best {
 /// contents are lent, half the range of a parameter at either end (of those that are worst alone),
 /// a parameter left at its default. Those that are hardly better are left out; where nothing fits,
 /// all that would are named.
-std::vector<std::string> give_ups(const ir::Module& module, const Subject& subject,
+std::vector<std::string> give_ups(const ir::Module& module, const CodeSearch& subject,
                                   const std::vector<FittedCurve>& curves,
                                   const SuggestOptions& options, const Best& best);
 

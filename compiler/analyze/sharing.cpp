@@ -17,7 +17,7 @@ constexpr int most_moves = 6;
 constexpr double worthwhile = 0.98;  ///< less of an improvement is within what searches differ by
 
 /// Bits and prediction of a choice of options; not measured.
-Shared summed(const Subject& subject, const std::vector<FittedCurve>& curves,
+Shared summed(const CodeSearch& subject, const std::vector<FittedCurve>& curves,
               std::vector<std::size_t> options)
 {
     Shared shared{std::move(options), 0, 0, -1, {}};
@@ -31,12 +31,12 @@ Shared summed(const Subject& subject, const std::vector<FittedCurve>& curves,
 
 }  // namespace
 
-int bits_of(const Subject& subject, std::size_t placed, const Fitted& fitted)
+int bits_of(const CodeSearch& subject, std::size_t placed, const Fitted& fitted)
 {
     return fitted.point.bits * subject.placed[placed].components;
 }
 
-std::optional<int> least_bits(const Subject& subject, const std::vector<FittedCurve>& curves)
+std::optional<int> least_bits(const CodeSearch& subject, const std::vector<FittedCurve>& curves)
 {
     int bits = 0;
     for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -46,7 +46,7 @@ std::optional<int> least_bits(const Subject& subject, const std::vector<FittedCu
     return bits;
 }
 
-std::vector<Shared> shares_of(const Subject& subject, const std::vector<FittedCurve>& curves,
+std::vector<Shared> shares_of(const CodeSearch& subject, const std::vector<FittedCurve>& curves,
                               int bits)
 {
     const auto options = [&](auto cost) {
@@ -72,8 +72,8 @@ std::vector<Shared> shares_of(const Subject& subject, const std::vector<FittedCu
 namespace {
 
 /// Measures with all of them stored, or once more with other points to start from.
-void measure(const Subject& subject, const std::vector<FittedCurve>& curves, const Effort& effort,
-             std::vector<std::vector<float>> seeds, Shared& shared)
+void measure(const CodeSearch& subject, const std::vector<FittedCurve>& curves,
+             const Effort& effort, std::vector<std::vector<float>> seeds, Shared& shared)
 {
     StoredAs stored(subject.box.width(), nullptr);
     for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -132,7 +132,7 @@ std::vector<std::optional<Shared>> best_shares(const std::vector<ShareQuestion>&
     return best;
 }
 
-Shared improved(const Subject& subject, const std::vector<FittedCurve>& curves, Shared shared,
+Shared improved(const CodeSearch& subject, const std::vector<FittedCurve>& curves, Shared shared,
                 int bits, const std::vector<std::vector<float>>& known, unsigned jobs)
 {
     std::vector<std::vector<float>> seeds = some(known);

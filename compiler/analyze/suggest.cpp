@@ -46,7 +46,7 @@ std::vector<Placed> to_place(const ir::Module& module, const ir::Packing& from,
 }
 
 /// Fields in their slots, for options of the curves. All of it fits, by the sum of the bits.
-ir::Packing laid_out(const Subject& subject, const std::vector<FittedCurve>& curves,
+ir::Packing laid_out(const CodeSearch& subject, const std::vector<FittedCurve>& curves,
                      const Shared& shared, const std::vector<ir::Slot>& slots)
 {
     ir::Packing packing = subject.packing;
@@ -68,7 +68,7 @@ ir::Packing laid_out(const Subject& subject, const std::vector<FittedCurve>& cur
 }
 
 /// Every parameter in 8 linear bits per component, each in a channel of its own that no engine has.
-PackingErrors linear_errors(const ir::Module& module, const Subject& subject,
+PackingErrors linear_errors(const ir::Module& module, const CodeSearch& subject,
                             const RadianceOptions& options)
 {
     ir::Module copy = module;
@@ -94,7 +94,7 @@ PackingErrors linear_errors(const ir::Module& module, const Subject& subject,
 }
 
 /// Module, errors and text for one choice of options.
-void take(Suggestion& out, const ir::Module& module, const Subject& subject,
+void take(Suggestion& out, const ir::Module& module, const CodeSearch& subject,
           const std::vector<FittedCurve>& curves, const Shared& shared,
           const SuggestOptions& options)
 {
@@ -118,7 +118,7 @@ void take(Suggestion& out, const ir::Module& module, const Subject& subject,
 
 /// Takes the smallest layout that stays below the error, or else the best. Returns the one taken;
 /// its measured error is then that of the whole measurement.
-const Shared* take_best(Suggestion& out, const ir::Module& module, const Subject& subject,
+const Shared* take_best(Suggestion& out, const ir::Module& module, const CodeSearch& subject,
                         const std::vector<FittedCurve>& curves, std::vector<Shared>& trade,
                         const SuggestOptions& options)
 {
@@ -140,7 +140,7 @@ const Shared* take_best(Suggestion& out, const ir::Module& module, const Subject
     return &trade.back();
 }
 
-std::string needs_too_much(const ir::Module& module, const Subject& subject,
+std::string needs_too_much(const ir::Module& module, const CodeSearch& subject,
                            const std::vector<FittedCurve>& curves, int bits)
 {
     for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -169,7 +169,7 @@ Suggestion suggest(const ir::Module& module, std::size_t packing, const SuggestO
     const ir::Packing& from = module.packings[packing];
     Suggestion out;
     out.module = module;
-    const Subject subject = subject_of(module, from, to_place(module, from, options.parameters));
+    const CodeSearch subject = subject_of(module, from, to_place(module, from, options.parameters));
     const int bits = bits_in(options.room);
 
     std::vector<std::size_t> everything(subject.placed.size());

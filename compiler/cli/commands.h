@@ -16,6 +16,7 @@ void add_pack(CLI::App& app, const Terminal& terminal, int& status);
 void add_pareto(CLI::App& app, const Terminal& terminal, int& status);
 void add_patch(CLI::App& app, const Terminal& terminal, int& status);
 void add_verify(CLI::App& app, const Terminal& terminal, int& status);
+void add_stability(CLI::App& app, const Terminal& terminal, int& status);
 void add_explain(CLI::App& app, const Terminal& terminal, int& status);
 void add_devices(CLI::App& app, const Terminal& terminal, int& status);
 

@@ -428,11 +428,11 @@ TEST_CASE("a declared code is considered in the bits it was written for", "[sugg
     placed.parameter = 1;
     placed.range = field.range;
     placed.declared = {field};
-    const analyze::Subject subject = analyze::subject_of(toy.module, toy.packing, {placed});
+    const analyze::CodeSearch subject = analyze::subject_of(toy.module, toy.packing, {placed});
     // Without it: linear over [0, 4] has 1 on a code only where its pivot is a multiple of 4.
     analyze::Placed plain = placed;
     plain.declared.clear();
-    const analyze::Subject without = analyze::subject_of(toy.module, toy.packing, {plain});
+    const analyze::CodeSearch without = analyze::subject_of(toy.module, toy.packing, {plain});
     const auto with_code = analyze::fit_curves(subject, {0}, {4, 4}, 0)[0];
     const auto without_code = analyze::fit_curves(without, {0}, {4, 4}, 0)[0];
     REQUIRE(with_code.size() == 1);
@@ -462,7 +462,7 @@ TEST_CASE("a pivot is considered where it means the same for all components", "[
         placed.parameter = 0;
         placed.components = 3;
         placed.range = tint.range;
-        const analyze::Subject subject = analyze::subject_of(toy.module, toy.packing, {placed});
+        const analyze::CodeSearch subject = analyze::subject_of(toy.module, toy.packing, {placed});
         return analyze::fit_curves(subject, {0}, {2, 2}, 0)[0];
     };
     // Of two bits no linear code keeps a quarter.
