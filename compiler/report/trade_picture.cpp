@@ -205,12 +205,31 @@ private:
             out += fmt::format("<g class=\"{}{}\">{}<title>{}</title>{}", kind_of(candidate),
                                on_frontier ? "" : " dominated", mark(candidate.format, x, y),
                                escaped_xml(hover(trade_, i, family_)), closing(candidate.format));
-            if (on_frontier)
-                out +=
-                    fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 6, y - 5, i + 1);
             out += "</g>\n";
         }
-        return back + front;
+        return back + front + labels();
+    }
+
+    /// Numbers of the frontier, most accurate first; one that would lie on another is left out.
+    std::string labels() const
+    {
+        constexpr double wide = 24, high = 12;
+        std::vector<std::pair<double, double>> taken;
+        std::string out;
+        std::vector<std::size_t> order = frontier();
+        std::ranges::reverse(order);
+        for (const std::size_t i : order) {
+            const double x = column(cost_of(trade_, trade_.candidates[i], family_)) + 6;
+            const double y = row(trade_.error_of(trade_.candidates[i])) - 5;
+            if (std::ranges::any_of(taken, [&](const auto& at) {
+                    return std::abs(at.first - x) < wide && std::abs(at.second - y) < high;
+                }))
+                continue;
+            taken.emplace_back(x, y);
+            out +=
+                fmt::format("<text class=\"k\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, y, i + 1);
+        }
+        return out;
     }
 
     const Trade& trade_;
@@ -231,14 +250,13 @@ std::string legend(double x, double y)
     };
     constexpr analyze::Format circle = analyze::Format::float32;
     std::string out;
-    for (const Entry& entry :
-         {Entry{"definition", circle, "the definition, in each spelling"},
-          Entry{"written", circle, "with forms that people wrote"},
-          Entry{"found", circle, "with forms that the compiler found"},
-          Entry{"naive", circle, "as typed by hand, without guards"},
-          Entry{"definition", analyze::Format::float16, "half"},
-          Entry{"definition", analyze::Format::packed16, "packed half"},
-          Entry{"definition dominated", circle, "dominated: another is as good or better"}}) {
+    for (const Entry& entry : {Entry{"definition", circle, "the definition, spelled each way"},
+                               Entry{"written", circle, "with forms that people wrote"},
+                               Entry{"found", circle, "with forms the compiler found"},
+                               Entry{"naive", circle, "as typed by hand, without guards"},
+                               Entry{"definition", analyze::Format::float16, "half"},
+                               Entry{"definition", analyze::Format::packed16, "packed half"},
+                               Entry{"definition dominated", circle, "dominated by another"}}) {
         out += fmt::format("<g class=\"{}\">{}{}</g><text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
                            entry.kind, mark(entry.format, x, y), closing(entry.format), x + 14,
                            y + 4, entry.words);
