@@ -41,13 +41,14 @@ public:
           listing_(module, sources, dialect_, module.reachable(functions), {}, taken_names),
           scope_(listing_.scope())
     {
-        if (from_vectors_)
-            tangents_ = std::ranges::any_of(functions_, [&](ir::FunctionId id) {
-                return std::ranges::any_of(module_[id].inputs, [](const ir::Input& input) {
-                    return input.origin == ir::Origin::geometry &&
-                           ir::needs_tangents(static_cast<ir::GeometryField>(input.which));
-                });
-            });
+        if (!from_vectors_) return;
+        for (const ir::FunctionId id : functions_)
+            for (const ir::Input& input : module_[id].inputs) {
+                if (input.origin != ir::Origin::geometry) continue;
+                const auto field = static_cast<ir::GeometryField>(input.which);
+                tangents_ |= ir::needs_tangents(field);
+                has_complement_ |= ir::gives_cos_h(field);
+            }
     }
 
     Evaluation write()
@@ -96,6 +97,7 @@ private:
             frame.y = vector(ir::GeometryField::y);
         }
         frame.bare = module_.bare_geometry;
+        frame.has_complement = has_complement_;
         return ir::expand(text_.graph, field, frame);
     }
 
@@ -141,6 +143,7 @@ private:
     NumberFormat format_;
     bool from_vectors_;
     bool tangents_ = false;
+    bool has_complement_ = false;
     const Dialect& dialect_;
     Listing listing_;
     Scope scope_;

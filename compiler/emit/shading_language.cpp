@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lobe::emit {
 namespace {
 
@@ -91,6 +93,7 @@ private:
             frame.x = vector(ir::GeometryField::x);
             frame.y = vector(ir::GeometryField::y);
         }
+        frame.has_complement = std::ranges::any_of(inputs_.geometry, ir::gives_cos_h);
         std::string surface;
         std::string parameters;
         if (!inputs_.surface.empty()) surface = argument(surface_type, "surface") + ".";

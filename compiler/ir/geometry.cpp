@@ -25,7 +25,7 @@ constexpr std::array geometry_facts{
     FieldFacts{"x_dot_h", Type::scalar, -1, 1, true, "x.h"},
     FieldFacts{"y_dot_h", Type::scalar, -1, 1, true, "y.h"},
     FieldFacts{"sin2_h", Type::scalar, 0, 1, false, "|n x h|^2, which is 1 - cos_h^2"},
-    FieldFacts{"one_minus_cos_h", Type::scalar, 0, 1, false, "|n x h|^2 / (1 + n.h)"},
+    FieldFacts{"one_minus_cos_h", Type::scalar, 0, 1, false, "|n - h|^2 / 2"},
     FieldFacts{"one_minus_cos_d", Type::scalar, 0, 1, false, "|l - v|^2 / (4 (1 + l.h))"},
 };
 
@@ -101,57 +101,138 @@ bool needs_tangents(GeometryField field)
     return false;
 }
 
+namespace {
+
+/// What several fields are made from, in a graph that shares equal expressions.
+class Expansion {
+public:
+    Expansion(Graph& graph, const Frame& frame) : graph_{graph}, frame_{frame} {}
+
+    ExprId dot(ExprId a, ExprId b) { return graph_.apply(Op::dot, {a, b}); }
+    ExprId saturated(ExprId a) { return graph_.apply(Op::saturate, {a}); }
+    ExprId number(std::string_view text) { return graph_.literal(text); }
+    ExprId times(std::string_view text, ExprId a)
+    {
+        return graph_.apply(Op::multiply, {number(text), a});
+    }
+
+    /// A cosine of two unit vectors, which rounding may push past 1.
+    ExprId cosine(ExprId a, ExprId b)
+    {
+        if (frame_.bare) return dot(a, b);
+        return graph_.apply(Op::clamp, {dot(a, b), number("-1"), number("1")});
+    }
+
+    ExprId h()
+    {
+        // That h is no longer than 1 is what this operation knows, and a product would not.
+        const ExprId result =
+            graph_.apply(frame_.bare ? Op::normalize : Op::guarded_normalize, {sum()});
+        graph_.set_name(result, "h");
+        return result;
+    }
+
+    ExprId cos_h()
+    {
+        if (!frame_.has_complement) return saturated(dot(frame_.n, h()));
+        return graph_.apply(Op::subtract, {number("1"), one_minus_cos_h()});
+    }
+
+    /// |l + v| / 2
+    ExprId cos_d()
+    {
+        if (frame_.bare) return saturated(dot(frame_.l, h()));
+        return saturated(
+            times("0.5", graph_.apply(Op::multiply, {squared_length(), inverse_length()})));
+    }
+
+    /// |n - h|^2 / 2, which is 1 - n.h for unit vectors. Where there is no h that is 1/2, and it
+    /// has to be 1: the missing half goes with |l + v|^2, long before that is anything.
+    ExprId one_minus_cos_h()
+    {
+        const ExprId chord = graph_.apply(Op::subtract, {frame_.n, h()});
+        const ExprId lacks_h = saturated(graph_.apply(
+            Op::subtract, {number("1"), graph_.apply(Op::multiply, {graph_.literal(0x1p124),
+                                                                    squared_length()})}));
+        graph_.set_name(lacks_h, "lacks_h");
+        return saturated(graph_.apply(Op::add, {times("0.5", dot(chord, chord)), lacks_h}));
+    }
+
+    /// (1 - cos_h)(1 + cos_h)
+    ExprId sin2_h()
+    {
+        const ExprId complement = one_minus_cos_h();
+        const ExprId one_plus = graph_.apply(Op::subtract, {number("2"), complement});
+        return saturated(graph_.apply(Op::multiply, {complement, one_plus}));
+    }
+
+    /// |l - v|^2 / (4 (1 + cos_d))
+    ExprId one_minus_cos_d()
+    {
+        const ExprId chord = graph_.apply(Op::subtract, {frame_.l, frame_.v});
+        const ExprId four_times = graph_.apply(Op::add, {number("4"), times("4", cos_d())});
+        return saturated(graph_.apply(Op::divide, {dot(chord, chord), four_times}));
+    }
+
+private:
+    /// A square below the least normal float counts as that.
+    ExprId least() { return graph_.literal(0x1p-126); }
+    ExprId sum()
+    {
+        const ExprId result = graph_.apply(Op::add, {frame_.l, frame_.v});
+        graph_.set_name(result, "l_plus_v");
+        return result;
+    }
+    ExprId squared_length()
+    {
+        const ExprId result = dot(sum(), sum());
+        graph_.set_name(result, "length_squared");
+        return result;
+    }
+    ExprId inverse_length()
+    {
+        const ExprId result = graph_.apply(
+            Op::inverse_square_root, {graph_.apply(Op::maximum, {squared_length(), least()})});
+        graph_.set_name(result, "inverse_length");
+        return result;
+    }
+
+    Graph& graph_;
+    const Frame& frame_;
+};
+
+}  // namespace
+
+bool gives_cos_h(GeometryField field)
+{
+    // Not sin2_h: what divides by cos_h near the horizon reads that, and needs the product.
+    return field == GeometryField::one_minus_cos_h;
+}
+
 ExprId expand(Graph& graph, GeometryField field, const Frame& frame)
 {
-    const auto dot = [&](ExprId a, ExprId b) { return graph.apply(Op::dot, {a, b}); };
-    const auto saturate = [&](ExprId a) { return graph.apply(Op::saturate, {a}); };
-    const auto field_of = [&](GeometryField other) { return expand(graph, other, frame); };
-    const auto one = [&] { return graph.literal("1"); };
-    // A cosine of two unit vectors, which rounding may push past 1.
-    const auto cosine = [&](ExprId a, ExprId b) {
-        if (frame.bare) return dot(a, b);
-        return graph.apply(Op::clamp, {dot(a, b), graph.literal("-1"), one()});
-    };
-
+    Expansion of{graph, frame};
     switch (field) {
     case GeometryField::l: return frame.l;
     case GeometryField::v: return frame.v;
     case GeometryField::n: return frame.n;
     case GeometryField::x: return frame.x;
     case GeometryField::y: return frame.y;
-    case GeometryField::h:
-        return graph.apply(frame.bare ? Op::normalize : Op::guarded_normalize,
-                           {graph.apply(Op::add, {frame.l, frame.v})});
-    case GeometryField::cos_i: return saturate(dot(frame.n, frame.l));
-    case GeometryField::cos_o: return saturate(dot(frame.n, frame.v));
-    case GeometryField::cos_h: return saturate(dot(frame.n, field_of(GeometryField::h)));
-    case GeometryField::cos_d: return saturate(dot(frame.l, field_of(GeometryField::h)));
-    case GeometryField::v_dot_l: return cosine(frame.v, frame.l);
-    case GeometryField::x_dot_l: return cosine(frame.x, frame.l);
-    case GeometryField::y_dot_l: return cosine(frame.y, frame.l);
-    case GeometryField::x_dot_v: return cosine(frame.x, frame.v);
-    case GeometryField::y_dot_v: return cosine(frame.y, frame.v);
-    case GeometryField::x_dot_h: return cosine(frame.x, field_of(GeometryField::h));
-    case GeometryField::y_dot_h: return cosine(frame.y, field_of(GeometryField::h));
-    case GeometryField::sin2_h: {
-        // Where n.h <= 0 (h below the horizon, or no h at all) cos_h is 0, and this has to be 1.
-        const ExprId h = field_of(GeometryField::h);
-        const ExprId sine = graph.apply(Op::cross, {frame.n, h});
-        const ExprId above = graph.apply(Op::less, {graph.literal("0"), dot(frame.n, h)});
-        return graph.apply(Op::select, {above, saturate(dot(sine, sine)), one()});
-    }
-    case GeometryField::one_minus_cos_h: {
-        const ExprId sin2 = field_of(GeometryField::sin2_h);
-        const ExprId cos = field_of(GeometryField::cos_h);
-        return saturate(graph.apply(Op::divide, {sin2, graph.apply(Op::add, {one(), cos})}));
-    }
-    case GeometryField::one_minus_cos_d: {
-        const ExprId chord = graph.apply(Op::subtract, {frame.l, frame.v});
-        const ExprId cos = field_of(GeometryField::cos_d);
-        const ExprId quarter =
-            graph.apply(Op::multiply, {graph.literal("0.25"), dot(chord, chord)});
-        return saturate(graph.apply(Op::divide, {quarter, graph.apply(Op::add, {one(), cos})}));
-    }
+    case GeometryField::h: return of.h();
+    case GeometryField::cos_i: return of.saturated(of.dot(frame.n, frame.l));
+    case GeometryField::cos_o: return of.saturated(of.dot(frame.n, frame.v));
+    case GeometryField::cos_h: return of.cos_h();
+    case GeometryField::cos_d: return of.cos_d();
+    case GeometryField::v_dot_l: return of.cosine(frame.v, frame.l);
+    case GeometryField::x_dot_l: return of.cosine(frame.x, frame.l);
+    case GeometryField::y_dot_l: return of.cosine(frame.y, frame.l);
+    case GeometryField::x_dot_v: return of.cosine(frame.x, frame.v);
+    case GeometryField::y_dot_v: return of.cosine(frame.y, frame.v);
+    case GeometryField::x_dot_h: return of.cosine(frame.x, of.h());
+    case GeometryField::y_dot_h: return of.cosine(frame.y, of.h());
+    case GeometryField::sin2_h: return of.sin2_h();
+    case GeometryField::one_minus_cos_h: return of.one_minus_cos_h();
+    case GeometryField::one_minus_cos_d: return of.one_minus_cos_d();
     }
     return {};
 }

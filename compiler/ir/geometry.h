@@ -14,13 +14,16 @@
 // Fields marked stable below cannot be named in a .lobe file. They carry the same quantity
 // without cancellation, and optimize/stabilize.cpp puts them where accuracy asks for them:
 //
-//   sin2_h            |n x h|^2                    = 1 - cos_h^2
-//   one_minus_cos_h   |n x h|^2 / (1 + n.h)        = 1 - cos_h
-//   one_minus_cos_d   |l - v|^2 / (4 (1 + l.h))    = 1 - cos_d
+//   one_minus_cos_h   |n - h|^2 / 2                     = 1 - cos_h
+//   sin2_h            one_minus_cos_h (1 + cos_h)       = 1 - cos_h^2
+//   one_minus_cos_d   |l - v|^2 / (4 (1 + cos_d))       = 1 - cos_d
 //
-// Where n.h <= 0, cos_h is 0 by definition, so sin2_h and one_minus_cos_h are 1 there.
+// and cos_d is |l + v| / 2. Where n.h <= 0, cos_h is 0 by definition, so sin2_h and
+// one_minus_cos_h are 1 there.
 //
-// Source: Lagrange's identity, and the half-angle formula for unit l and v.
+// Why they are accurate: the differences of vectors are exact where they are small (Sterbenz), and
+// a unit vector that rounding made longer by e moves |n - h|^2 / 2 by e (1 - cos_h) + e^2 / 2.
+// Source: the law of cosines for unit vectors, and the half angle of l and v.
 #pragma once
 
 #include "ir/graph.h"
@@ -87,7 +90,13 @@ struct Frame {
     /// As a port by hand computes fields: h is normalize(l + v), which l = -v makes undefined, and
     /// cosines that no saturation holds are as they come. For comparison only.
     bool bare = false;
+    /// One of the fields below is computed as well: cos_h is one minus that, not a product of its
+    /// own.
+    bool has_complement = false;
 };
+
+/// True for the fields that cos_h follows from: see Frame::has_complement.
+bool gives_cos_h(GeometryField field);
 
 /// The expression that computes a field from the vectors. Guarded: l = -v gives h = 0.
 /// Cosines are saturated; `sin2_h`, `one_minus_*` are saturated.

@@ -132,13 +132,15 @@ Function entry_point(const Module& module, FunctionId id)
 
     bool geometry = false;
     bool tangents = false;
+    Frame frame;
+    frame.bare = module.bare_geometry;
     for (const Input& input : callee.inputs)
         if (input.origin == Origin::geometry) {
             geometry = true;
-            tangents |= needs_tangents(static_cast<GeometryField>(input.which));
+            const auto field = static_cast<GeometryField>(input.which);
+            tangents |= needs_tangents(field);
+            frame.has_complement |= gives_cos_h(field);
         }
-    Frame frame;
-    frame.bare = module.bare_geometry;
     if (geometry) {
         frame.l = add_vector(GeometryField::l);
         frame.v = add_vector(GeometryField::v);

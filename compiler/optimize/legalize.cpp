@@ -10,6 +10,7 @@
 // Over the real numbers nothing changes, except that an argument of log or inverse_square_root
 // below the smallest normal float counts as that float: there float has nothing better to say.
 #include "evaluate/run.h"
+#include "optimize/explain.h"
 #include "optimize/guard.h"
 #include "optimize/legal.h"
 #include "optimize/literal.h"
@@ -64,23 +65,33 @@ ExprId spell_power(Graph& graph, ExprId x, Type type, int halves, const Interval
 
 bool is_power(Op op) { return op == Op::power || op == Op::guarded_power; }
 
-Step spell_powers(Rebuild& rebuild)
+Step spell_powers(Rebuild& rebuild, const Notes& notes)
 {
     const Function& old = rebuild.old();
     if (!any_expression(old.graph, [&](ExprId id) { return is_power(old.graph[id].op); }))
         return {};
     auto ranges = evaluate::ranges(rebuild.old_module(), old, evaluate::declared_ranges(old));
-    return [&rebuild, &old, ranges = std::move(ranges)](ExprId id) {
+    auto uses = use_counts(old.graph, old.result);
+    return [&rebuild, &old, notes, ranges = std::move(ranges), uses = std::move(uses)](ExprId id) {
         const Expr& expr = old.graph[id];
         if (!is_power(expr.op)) return rebuild.copy(id);
         const Span span = old.graph.span(id);
+        const auto note = [&](std::string_view name) {
+            if (uses[id] > 0) notes.add(name, rebuild.id(), span);
+        };
         const auto operands = old.graph.operands(id);
         const ExprId x = rebuild.moved(operands[0]);
         if (const auto halves = spelled_halves(old.graph, operands[1], ranges[operands[0]]);
-            halves && rebuild.graph[x].type == expr.type)
+            halves && rebuild.graph[x].type == expr.type) {
+            // A square is what x * x is anywhere.
+            if (*halves != 4) note(*halves % 2 == 0 ? "whole_power" : "half_power");
             return spell_power(rebuild.graph, x, expr.type, *halves, ranges[operands[0]], span);
-        if (exact_literal(old.graph, operands[0]) == 2 && old.graph[operands[1]].type == expr.type)
+        }
+        if (exact_literal(old.graph, operands[0]) == 2 &&
+            old.graph[operands[1]].type == expr.type) {
+            note("power_of_two");
             return rebuild.graph.apply(Op::exp2, {rebuild.moved(operands[1])}, span);
+        }
         return rebuild.copy(id);
     };
 }
@@ -106,13 +117,19 @@ bool has_domain(Op op)
     }
 }
 
+/// What is known of a function before its guards are placed.
+struct Known {
+    Facts<Expr, Interval> ranges;
+    Facts<Expr, Interval> reals;  ///< over the real numbers
+    Facts<Expr, bool> guarded_divisions;
+    Facts<Expr, int> uses;
+};
+
 /// One expression and the ranges of its operands.
 class Guard {
 public:
-    Guard(Rebuild& rebuild, const Facts<Expr, Interval>& ranges, const Facts<Expr, Interval>& reals,
-          const Facts<Expr, bool>& guarded_divisions, ExprId id)
-        : rebuild_{rebuild}, ranges_{ranges}, reals_{reals},
-          guarded_divisions_{guarded_divisions}, id_{id}, old_{rebuild.old().graph}
+    Guard(Rebuild& rebuild, const Known& known, const Notes& notes, ExprId id)
+        : rebuild_{rebuild}, known_{known}, notes_{notes}, id_{id}, old_{rebuild.old().graph}
     {
     }
 
@@ -122,22 +139,32 @@ public:
         case Op::power:
         case Op::guarded_power: return power();
         case Op::smoothstep:
-        case Op::guarded_smoothstep:
-            return make(range(0).high < range(1).low ? Op::smoothstep : Op::guarded_smoothstep);
+        case Op::guarded_smoothstep: {
+            const bool apart = range(0).high < range(1).low;
+            note(apart ? "smoothstep_without_guard" : "guarded_smoothstep");
+            return make(apart ? Op::smoothstep : Op::guarded_smoothstep);
+        }
         case Op::normalize:
-        case Op::guarded_normalize:
-            return make(is_not_zero(rebuild_.old(), old_.operands(id_)[0], range(0))
-                            ? Op::normalize
-                            : Op::guarded_normalize);
+        case Op::guarded_normalize: {
+            const bool not_zero = is_not_zero(rebuild_.old(), old_.operands(id_)[0], range(0));
+            note(not_zero ? "normalize_without_guard" : "guarded_normalize");
+            return make(not_zero ? Op::normalize : Op::guarded_normalize);
+        }
         case Op::divide: return divide();
-        case Op::square_root: return range(0).low < 0 ? make(Op::square_root, at_least(0)) : copy();
+        case Op::square_root:
+            if (range(0).low >= 0) return copy();
+            note("held_root");
+            return make(Op::square_root, at_least(0));
         case Op::inverse_square_root:
         case Op::log:
         case Op::log2:
-            return range(0).low <= 0 ? make(old_[id_].op, at_least(smallest_normal_float)) : copy();
+            if (range(0).low > 0) return copy();
+            note(old_[id_].op == Op::inverse_square_root ? "held_inverse_root" : "held_logarithm");
+            return make(old_[id_].op, at_least(smallest_normal_float));
         case Op::arc_sine:
         case Op::arc_cosine:
             if (range(0).low >= -1 && range(0).high <= 1) return copy();
+            note("held_angle");
             return make(old_[id_].op, graph().apply(Op::clamp, {operand(0), graph().literal("-1"),
                                                                 graph().literal("1")}));
         default: return copy();
@@ -146,7 +173,11 @@ public:
 
 private:
     Graph& graph() { return rebuild_.graph; }
-    const Interval& range(std::size_t i) const { return ranges_[old_.operands(id_)[i]]; }
+    void note(std::string_view name) const
+    {
+        if (known_.uses[id_] > 0) notes_.add(name, rebuild_.id(), old_.span(id_));
+    }
+    const Interval& range(std::size_t i) const { return known_.ranges[old_.operands(id_)[i]]; }
     ExprId operand(std::size_t i) const { return rebuild_.moved(old_.operands(id_)[i]); }
     ExprId copy() { return rebuild_.copy(id_); }
     ExprId make(Op op) { return graph().apply(op, rebuild_.moved_operands(id_), old_.span(id_)); }
@@ -161,8 +192,13 @@ private:
     ExprId divide()
     {
         const Interval& divisor = range(1);
-        if (divisor.low > 0 || divisor.high < 0 || guarded_divisions_[id_]) return copy();
-        const Interval& exact = reals_[old_.operands(id_)[1]];
+        if (known_.guarded_divisions[id_]) {
+            note("guarded_quotient");
+            return copy();
+        }
+        if (divisor.low > 0 || divisor.high < 0) return copy();
+        note("held_divisor");
+        const Interval& exact = known_.reals[old_.operands(id_)[1]];
         const bool negative = exact.high <= 0 && exact.low < 0;
         const ExprId least =
             graph().literal(negative ? -smallest_normal_float : smallest_normal_float);
@@ -178,6 +214,7 @@ private:
         if (base.low < 0) {
             // Not negative over the real numbers, or the checker had refused it.
             x = at_least(0);
+            note("held_base");
             base = {0, std::fmax(base.high, 0)};
         }
         // The guard makes of 0^y the least normal float to the y: below half the least float that
@@ -186,36 +223,40 @@ private:
         const bool was_bare = old_[id_].op == Op::power && is_safe_power(base, range(1));
         const bool safe = was_bare || base.low > 0 || range(1).low >= vanishing;
         const Op op = safe ? Op::power : Op::guarded_power;
+        note(safe ? "power_without_guard" : "guarded_power");
         return graph().apply(op, {x, operand(1)}, old_.span(id_));
     }
 
     Rebuild& rebuild_;
-    const Facts<Expr, Interval>& ranges_;
-    const Facts<Expr, Interval>& reals_;  ///< over the real numbers
-    const Facts<Expr, bool>& guarded_divisions_;
+    const Known& known_;
+    const Notes& notes_;
     ExprId id_;
     const Graph& old_;
 };
 
-Step place_guards(Rebuild& rebuild)
+Step place_guards(Rebuild& rebuild, const Notes& notes)
 {
     const Function& old = rebuild.old();
     if (!any_expression(old.graph, [&](ExprId id) { return has_domain(old.graph[id].op); }))
         return {};
-    auto ranges = evaluate::ranges(rebuild.old_module(), old, evaluate::declared_ranges(old));
-    auto reals = evaluate::ranges(rebuild.old_module(), old, evaluate::declared_ranges(old),
-                                  evaluate::Arithmetic::reals);
-    return [&rebuild, ranges = std::move(ranges), reals = std::move(reals),
-            divisions = guarded_divisions(old)](ExprId id) {
-        return Guard{rebuild, ranges, reals, divisions, id}.guarded();
+    const auto inputs = evaluate::declared_ranges(old);
+    Known known{evaluate::ranges(rebuild.old_module(), old, inputs),
+                evaluate::ranges(rebuild.old_module(), old, inputs, evaluate::Arithmetic::reals),
+                guarded_divisions(old), use_counts(old.graph, old.result)};
+    return [&rebuild, notes, known = std::move(known)](ExprId id) {
+        return Guard{rebuild, known, notes, id}.guarded();
     };
 }
 
 }  // namespace
 
-Module legalize(const Module& module)
+Module legalize(const Module& module, const Notes& notes)
 {
-    return rewrite(rewrite(module, spell_powers), place_guards);
+    const Module spelled =
+        rewrite(module, [&](Rebuild& rebuild) { return spell_powers(rebuild, notes); });
+    return rewrite(spelled, [&](Rebuild& rebuild) { return place_guards(rebuild, notes); });
 }
+
+Module legalize(const Module& module) { return legalize(module, {}); }
 
 }  // namespace lobe::optimize

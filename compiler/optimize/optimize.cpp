@@ -1,5 +1,8 @@
 #include "optimize/optimize.h"
 
+#include "optimize/explain.h"
+#include "optimize/stabilize.h"
+
 #include <cassert>
 
 namespace lobe::optimize {
@@ -12,20 +15,46 @@ ir::Module checked(ir::Module module)
     return module;
 }
 
+/// All passes; tells what they did where asked.
+ir::Module run(const ir::Module& module, const Notes& notes, std::vector<Application>& applied)
+{
+    // So that rules meet x and not x * 1.
+    const ir::Module simple = checked(simplify(module));
+    // Before quotients are part of anything else.
+    const ir::Module reduced = checked(cancel(simple, notes));
+    const ir::Module tidy = checked(simplify_again(simple, reduced));
+    // While powers are powers and differences stand as they were written.
+    const ir::Module stable = checked(stabilize(tidy, applied));
+    // What a stable form folds to, and inputs that nothing reads any more.
+    const ir::Module clean = checked(simplify_again(tidy, stable));
+    // After all that looks for what the author wrote.
+    const ir::Module grouped = checked(regroup(clean, notes));
+    // Late: what it proves is about the expressions that will be emitted.
+    const ir::Module legal = checked(legalize(grouped, notes));
+    // Factors of 1 in products, and guards that a sharper range makes needless.
+    return checked(simplify_again(clean, legal));
+}
+
 }  // namespace
 
 ir::Module optimize(const ir::Module& module)
 {
-    // So that rules meet x and not x * 1.
-    const ir::Module simple = checked(simplify(module));
-    // While powers are powers and differences stand as they were written.
-    const ir::Module stable = checked(stabilize(simple));
-    // What a stable form folds to, and inputs that nothing reads any more.
-    const ir::Module clean = checked(simplify_again(simple, stable));
-    // Late: what it proves is about the expressions that will be emitted.
-    const ir::Module legal = checked(legalize(clean));
-    // Factors of 1 in products, and guards that a sharper range makes needless.
-    return checked(simplify_again(clean, legal));
+    std::vector<Application> applied;
+    return run(module, {}, applied);
+}
+
+ir::Module optimize(const ir::Module& module, std::vector<Note>& notes)
+{
+    std::vector<Application> applied;
+    std::vector<Note> others;
+    ir::Module result = run(module, Notes{others}, applied);
+    for (const Application& use : applied)
+        notes.push_back({{use.rule->name, Action::Kind::rewrite, use.rule->pattern,
+                          use.rule->replacement, use.rule->reason},
+                         use.function,
+                         use.span});
+    notes.insert(notes.end(), others.begin(), others.end());
+    return result;
 }
 
 }  // namespace lobe::optimize

@@ -16,9 +16,15 @@ ir::Module simplify(const ir::Module& module);
 /// it, and what calls that, is looked at.
 ir::Module simplify_again(const ir::Module& simple, const ir::Module& module);
 
+/// Quotients multiplied by their divisor, roots squared, angles undone: each gone.
+ir::Module cancel(const ir::Module& module);
+
 /// Cancelling differences over geometry replaced by the stable fields (ir/geometry.h) and by
 /// factored forms, through calls.
 ir::Module stabilize(const ir::Module& module);
+
+/// Products of vectors and scalars with the scalars first: fewer operations and roundings.
+ir::Module regroup(const ir::Module& module);
 
 /// Every `power`, `smoothstep`, `normalize` and guarded division is either proved safe over the
 /// declared ranges and bare, or guarded; integer powers are products. The promise `legal`.

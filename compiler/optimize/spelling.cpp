@@ -17,13 +17,6 @@ namespace {
 constexpr std::array all_spellings{Spelling::naive, Spelling::as_written, Spelling::factored,
                                    Spelling::stable};
 
-/// `module` made legal, as the last steps of `optimize` do. `simple` is what it was made from.
-Module legal(const Module& simple, const Module& module)
-{
-    const Module clean = simplify_again(simple, module);
-    return simplify_again(clean, legalize(clean));
-}
-
 }  // namespace
 
 std::string_view name(Spelling spelling)
@@ -47,12 +40,14 @@ Module spell(const Module& checked, Spelling spelling)
     case Spelling::naive: return bare(simple);
     case Spelling::factored: {
         std::vector<Application> log;
-        return legal(simple, stabilize(simple, log, Inputs::given));
+        const Module tidy = simplify_again(simple, cancel(simple));
+        const Module clean = simplify_again(tidy, stabilize(tidy, log, Inputs::given));
+        return simplify_again(clean, legalize(regroup(clean)));
     }
     case Spelling::as_written:
     case Spelling::stable: break;
     }
-    return legal(simple, simple);
+    return simplify_again(simple, legalize(simple));
 }
 
 }  // namespace lobe::optimize

@@ -15,7 +15,7 @@ namespace {
 /// differently. That its value at the default is Schlick's is the next test.
 const char* const base_models = R"(
 module base
-import microfacet { D_GGX, V_SmithGGX }
+import microfacet { D_GGX, V_SmithGGX, Diffuse_Lambert }
 
 param five : float in [0, 10] = 5 "Exponent"
 
@@ -25,7 +25,7 @@ term proxima(diffuse_color: color, alpha: float in [1/4096, 1], g: geometry) -> 
   if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi * brightness else 0
 }
 term lambert(diffuse_color: color, g: geometry) -> color =
-  if g.cos_i > 0 and g.cos_o > 0 then diffuse_color / pi * g.cos_i else 0
+  if g.cos_i > 0 and g.cos_o > 0 then Diffuse_Lambert(diffuse_color) * g.cos_i else 0
 term ggx(f0: color, alpha: float in [1/4096, 1], g: geometry) -> color {
   let fresnel = f0 + (1 - f0) * (1 - g.cos_d)^five
   if g.cos_i > 0 and g.cos_o > 0 then D_GGX(alpha, g) * V_SmithGGX(alpha, g) * fresnel * g.cos_i else 0

@@ -80,7 +80,7 @@ float alpha_f(float NoH, float OneMinusVoH, float diffuse_fresnel_falloff,
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = blend_weight(g.cos_h, falloff_scale(retroreflection_falloff), g.cos_d,
 // falloff_scale(retroreflection_tangent_falloff))
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // Returns [0, 1].
 // models/callisto.lobe:88
 float alpha_r(float VoH, float OneMinusNoH, float retroreflection_falloff,
@@ -95,7 +95,7 @@ float alpha_r(float VoH, float OneMinusNoH, float retroreflection_falloff,
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = lerp(1, diffuse_fresnel * diffuse_fresnel_tint, alpha_f(g)) * lerp(1, retroreflection *
 // retroreflection_tint, alpha_r(g))
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 65536].
 // models/callisto.lobe:98
@@ -106,17 +106,18 @@ vec3 c1(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH, float diffus
 {
     float alpha_f_value = alpha_f(NoH, OneMinusVoH, diffuse_fresnel_falloff,
         diffuse_fresnel_tangent_falloff);
+    vec3 t0 = diffuse_fresnel_tint * (diffuse_fresnel * alpha_f_value);
     float alpha_r_value = alpha_r(VoH, OneMinusNoH, retroreflection_falloff,
         retroreflection_tangent_falloff);
-    vec3 t0 = mix(vec3(1.0), diffuse_fresnel * diffuse_fresnel_tint, alpha_f_value);
-    return t0 * mix(vec3(1.0), retroreflection * retroreflection_tint, alpha_r_value);
+    vec3 t1 = retroreflection_tint * (retroreflection * alpha_r_value);
+    return (1.0 - alpha_f_value + t0) * (1.0 - alpha_r_value + t1);
 }
 
 // Where the terminator may be smoothed: not in the regions of Fresnel and retroreflection. Of
 // cosines, not of angles: with angles in radians it would exceed 1, and c2 go below 0.
 // slides 90: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = (1 - (1 - g.cos_d)^3) * (1 - (1 - g.cos_h)^3)
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 1].
 // models/callisto.lobe:105
@@ -130,7 +131,7 @@ float alpha_s(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH)
 // slides 90: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = let mask = alpha_s(g); lerp(1, smoothstep(0, mask * smooth_terminator_length, g.cos_i), mask *
 // smooth_terminator * smooth_terminator_tint)
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 2].
 // models/callisto.lobe:109
@@ -139,7 +140,7 @@ vec3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
 {
     float mask = alpha_s(NoH, VoH, OneMinusNoH, OneMinusVoH);
     float t0 = guarded_smoothstep(0.0, mask * smooth_terminator_length, NoL);
-    return mix(vec3(1.0), vec3(t0), mask * smooth_terminator * smooth_terminator_tint);
+    return t0 + (1.0 - mask * smooth_terminator * smooth_terminator_tint) * (1.0 - t0);
 }
 
 // Schlick with a scaled exponent; at falloff 0.5 it is Schlick's.
@@ -152,8 +153,8 @@ vec3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
 vec3 F_Callisto(vec3 f0, float one_minus_cos_d, float specular_fresnel_falloff)
 {
     float r = falloff_scale(specular_fresnel_falloff);
-    float t0 = guarded_power(one_minus_cos_d, 5.0 * r);
-    return f0 + clamp(2.0 - r, 0.0, 1.0) * (1.0 - f0) * t0;
+    float t0 = clamp(2.0 - r, 0.0, 1.0) * guarded_power(one_minus_cos_d, 5.0 * r);
+    return f0 * (1.0 - t0) + t0;
 }
 
 // Proxima's diffuse times n.l, fitted to rough facets. Gated: 0 unless light and view are above
@@ -172,7 +173,7 @@ vec3 proxima_cos(vec3 diffuse_color, float alpha, float NoL, float NoV, float Vo
 {
     float roughening = alpha * (1.0 - sqrt(max(-VoL, 0.0)));
     float brightness = NoL * (1.0 - 0.55 * roughening) + 0.19 * roughening;
-    return NoL > 0.0 && NoV > 0.0 ? diffuse_color / 3.1415927 * brightness : vec3(0.0);
+    return diffuse_color * (NoL > 0.0 && NoV > 0.0 ? brightness / 3.1415927 : 0.0);
 }
 
 // The same radiance in every direction.
@@ -193,7 +194,7 @@ vec3 Diffuse_Lambert(vec3 diffuse_color)
 // models/callisto.lobe:158
 vec3 lambert_cos(vec3 diffuse_color, float NoL, float NoV)
 {
-    return NoL > 0.0 && NoV > 0.0 ? Diffuse_Lambert(diffuse_color) * NoL : vec3(0.0);
+    return Diffuse_Lambert(diffuse_color) * (NoV > 0.0 ? NoL : 0.0);
 }
 
 // GGX (Trowbridge-Reitz) distribution: longer tails than Beckmann's.
@@ -270,14 +271,14 @@ vec3 specular_cos(vec3 f0, float roughness, float NoL, float NoV, float NxH2, fl
 {
     float dual_ggx_value = dual_ggx(roughness, NoL, NoV, NxH2, dual_specular_roughness_scale,
         dual_specular_opacity);
-    vec3 t0 = dual_ggx_value * F_Callisto(f0, OneMinusVoH, specular_fresnel_falloff) * NoL;
-    return NoL > 0.0 && NoV > 0.0 ? t0 : vec3(0.0);
+    vec3 F = F_Callisto(f0, OneMinusVoH, specular_fresnel_falloff);
+    return F * (NoV > 0.0 ? dual_ggx_value * NoL : 0.0);
 }
 
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * proxima_cos(s.diffuse_color, s.alpha, g) * c2(g)
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:201
 vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, float OneMinusNoH,
@@ -300,7 +301,7 @@ vec3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, flo
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:202
 vec3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusNoH,
@@ -320,7 +321,7 @@ vec3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, f
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * lambert_cos(s.diffuse_color, g) * c2(g)
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:209
 vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float OneMinusNoH,
@@ -343,7 +344,7 @@ vec3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float 
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:210
 vec3 callisto_lambert_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
@@ -440,16 +441,19 @@ CallistoResult callisto(vec3 l, vec3 v, vec3 n, CallistoSurface surface,
 {
     float NoL = clamp(dot(n, l), 0.0, 1.0);
     float NoV = clamp(dot(n, v), 0.0, 1.0);
-    vec3 h = guarded_normalize(l + v);
-    float n_dot_h = dot(n, h);
-    float NoH = clamp(n_dot_h, 0.0, 1.0);
-    float VoH = clamp(dot(l, h), 0.0, 1.0);
+    vec3 l_plus_v = l + v;
+    vec3 h = guarded_normalize(l_plus_v);
+    vec3 n_minus_h = n - h;
+    float length_squared = dot(l_plus_v, l_plus_v);
+    float lacks_h = clamp(1.0 - 2.1267648e37 * length_squared, 0.0, 1.0);
+    float OneMinusNoH = clamp(0.5 * dot(n_minus_h, n_minus_h) + lacks_h, 0.0, 1.0);
+    float NoH = 1.0 - OneMinusNoH;
+    float inverse_length = inversesqrt(max(length_squared, 1.1754944e-38));
+    float VoH = clamp(0.5 * (length_squared * inverse_length), 0.0, 1.0);
     float VoL = clamp(dot(v, l), -1.0, 1.0);
-    vec3 n_cross_h = cross(n, h);
-    float NxH2 = n_dot_h > 0.0 ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
-    float OneMinusNoH = clamp(NxH2 / (1.0 + NoH), 0.0, 1.0);
     vec3 l_minus_v = l - v;
-    float OneMinusVoH = clamp(0.25 * dot(l_minus_v, l_minus_v) / (1.0 + VoH), 0.0, 1.0);
+    float OneMinusVoH = clamp(dot(l_minus_v, l_minus_v) / (4.0 + 4.0 * VoH), 0.0, 1.0);
+    float NxH2 = clamp(OneMinusNoH * (2.0 - OneMinusNoH), 0.0, 1.0);
     CallistoResult result;
     result.diffuse = callisto_diffuse(NoL, NoV, NoH, VoH, VoL, OneMinusNoH, OneMinusVoH,
         surface.roughness, surface.diffuse_color, parameters.diffuse_fresnel,
@@ -548,15 +552,18 @@ CallistoLambertResult callisto_lambert(vec3 l, vec3 v, vec3 n, CallistoLambertSu
 {
     float NoL = clamp(dot(n, l), 0.0, 1.0);
     float NoV = clamp(dot(n, v), 0.0, 1.0);
-    vec3 h = guarded_normalize(l + v);
-    float n_dot_h = dot(n, h);
-    float NoH = clamp(n_dot_h, 0.0, 1.0);
-    float VoH = clamp(dot(l, h), 0.0, 1.0);
-    vec3 n_cross_h = cross(n, h);
-    float NxH2 = n_dot_h > 0.0 ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
-    float OneMinusNoH = clamp(NxH2 / (1.0 + NoH), 0.0, 1.0);
+    vec3 l_plus_v = l + v;
+    vec3 h = guarded_normalize(l_plus_v);
+    vec3 n_minus_h = n - h;
+    float length_squared = dot(l_plus_v, l_plus_v);
+    float lacks_h = clamp(1.0 - 2.1267648e37 * length_squared, 0.0, 1.0);
+    float OneMinusNoH = clamp(0.5 * dot(n_minus_h, n_minus_h) + lacks_h, 0.0, 1.0);
+    float NoH = 1.0 - OneMinusNoH;
+    float inverse_length = inversesqrt(max(length_squared, 1.1754944e-38));
+    float VoH = clamp(0.5 * (length_squared * inverse_length), 0.0, 1.0);
     vec3 l_minus_v = l - v;
-    float OneMinusVoH = clamp(0.25 * dot(l_minus_v, l_minus_v) / (1.0 + VoH), 0.0, 1.0);
+    float OneMinusVoH = clamp(dot(l_minus_v, l_minus_v) / (4.0 + 4.0 * VoH), 0.0, 1.0);
+    float NxH2 = clamp(OneMinusNoH * (2.0 - OneMinusNoH), 0.0, 1.0);
     CallistoLambertResult result;
     result.diffuse = callisto_lambert_diffuse(NoL, NoV, NoH, VoH, OneMinusNoH, OneMinusVoH,
         surface.diffuse_color, parameters.diffuse_fresnel, parameters.diffuse_fresnel_falloff,

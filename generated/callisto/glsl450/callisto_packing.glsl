@@ -28,22 +28,13 @@
 #ifndef LOBE_CALLISTO_PACKING_GLSL
 #define LOBE_CALLISTO_PACKING_GLSL
 
-#ifndef LOBE_guarded_power_float
-#define LOBE_guarded_power_float
-// x^y for x >= 0, and 1 where y is 0: an x below the least normal number counts as that.
-float guarded_power(float x, float y)
-{
-    return pow(max(x, 1.17549435e-38), y);
-}
-#endif
-
 // The code of diffuse_fresnel: 64 codes over [0, 256], power(6, 25/63).
 // = round(25 * x^(1/6))
 // Returns [0, 63].
 // models/callisto.lobe:220
 float encode_diffuse_fresnel(float x)
 {
-    return floor(guarded_power(clamp(x, 0.0, 256.0), 0.16666667) * 25.0 + 0.5);
+    return floor(pow(clamp(x, 0.0, 256.0), 0.16666667) * 25.0 + 0.5);
 }
 
 // Bits 2..7 of d.r: diffuse_fresnel, 64 codes over [0, 256], power(6, 25/63).
@@ -120,7 +111,7 @@ float decode_smooth_terminator(float code)
 // models/callisto.lobe:224
 float encode_retroreflection(float x)
 {
-    return floor(guarded_power(clamp(x, 0.0, 256.0), 0.09090909) * 154.0 + 0.5);
+    return floor(pow(clamp(x, 0.0, 256.0), 0.09090909) * 154.0 + 0.5);
 }
 
 // d.a: retroreflection, 256 codes over [0, 256], power(11, 154/255).

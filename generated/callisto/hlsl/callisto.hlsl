@@ -80,7 +80,7 @@ float alpha_f(float NoH, float OneMinusVoH, float diffuse_fresnel_falloff,
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = blend_weight(g.cos_h, falloff_scale(retroreflection_falloff), g.cos_d,
 // falloff_scale(retroreflection_tangent_falloff))
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // Returns [0, 1].
 // models/callisto.lobe:88
 float alpha_r(float VoH, float OneMinusNoH, float retroreflection_falloff,
@@ -95,7 +95,7 @@ float alpha_r(float VoH, float OneMinusNoH, float retroreflection_falloff,
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = lerp(1, diffuse_fresnel * diffuse_fresnel_tint, alpha_f(g)) * lerp(1, retroreflection *
 // retroreflection_tint, alpha_r(g))
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 65536].
 // models/callisto.lobe:98
@@ -106,18 +106,18 @@ float3 c1(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH, float diff
 {
     const float alpha_f_value = alpha_f(NoH, OneMinusVoH, diffuse_fresnel_falloff,
         diffuse_fresnel_tangent_falloff);
+    const float3 t0 = diffuse_fresnel_tint * (diffuse_fresnel * alpha_f_value);
     const float alpha_r_value = alpha_r(VoH, OneMinusNoH, retroreflection_falloff,
         retroreflection_tangent_falloff);
-    const float3 t0 = lerp((float3)1.0, diffuse_fresnel * diffuse_fresnel_tint, alpha_f_value);
-    const float3 t1 = lerp((float3)1.0, retroreflection * retroreflection_tint, alpha_r_value);
-    return t0 * t1;
+    const float3 t1 = retroreflection_tint * (retroreflection * alpha_r_value);
+    return (1.0 - alpha_f_value + t0) * (1.0 - alpha_r_value + t1);
 }
 
 // Where the terminator may be smoothed: not in the regions of Fresnel and retroreflection. Of
 // cosines, not of angles: with angles in radians it would exceed 1, and c2 go below 0.
 // slides 90: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = (1 - (1 - g.cos_d)^3) * (1 - (1 - g.cos_h)^3)
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 1].
 // models/callisto.lobe:105
@@ -131,7 +131,7 @@ float alpha_s(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH)
 // slides 90: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = let mask = alpha_s(g); lerp(1, smoothstep(0, mask * smooth_terminator_length, g.cos_i), mask *
 // smooth_terminator * smooth_terminator_tint)
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 2].
 // models/callisto.lobe:109
@@ -140,8 +140,7 @@ float3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
 {
     const float mask = alpha_s(NoH, VoH, OneMinusNoH, OneMinusVoH);
     const float t0 = guarded_smoothstep(0.0, mask * smooth_terminator_length, NoL);
-    const float3 t1 = mask * smooth_terminator * smooth_terminator_tint;
-    return lerp((float3)1.0, (float3)t0, t1);
+    return t0 + (1.0 - mask * smooth_terminator * smooth_terminator_tint) * (1.0 - t0);
 }
 
 // Schlick with a scaled exponent; at falloff 0.5 it is Schlick's.
@@ -154,8 +153,8 @@ float3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
 float3 F_Callisto(float3 f0, float one_minus_cos_d, float specular_fresnel_falloff)
 {
     const float r = falloff_scale(specular_fresnel_falloff);
-    const float3 t0 = saturate(2.0 - r) * (1.0 - f0) * guarded_power(one_minus_cos_d, 5.0 * r);
-    return f0 + t0;
+    const float t0 = saturate(2.0 - r) * guarded_power(one_minus_cos_d, 5.0 * r);
+    return f0 * (1.0 - t0) + t0;
 }
 
 // Proxima's diffuse times n.l, fitted to rough facets. Gated: 0 unless light and view are above
@@ -174,8 +173,7 @@ float3 proxima_cos(float3 diffuse_color, float alpha, float NoL, float NoV, floa
 {
     const float roughening = alpha * (1.0 - sqrt(max(-VoL, 0.0)));
     const float brightness = NoL * (1.0 - 0.55 * roughening) + 0.19 * roughening;
-    const float3 t0 = diffuse_color / 3.1415927 * brightness;
-    return NoL > 0.0 && NoV > 0.0 ? t0 : (float3)0.0;
+    return diffuse_color * (NoL > 0.0 && NoV > 0.0 ? brightness / 3.1415927 : 0.0);
 }
 
 // The same radiance in every direction.
@@ -196,7 +194,7 @@ float3 Diffuse_Lambert(float3 diffuse_color)
 // models/callisto.lobe:158
 float3 lambert_cos(float3 diffuse_color, float NoL, float NoV)
 {
-    return NoL > 0.0 && NoV > 0.0 ? Diffuse_Lambert(diffuse_color) * NoL : (float3)0.0;
+    return Diffuse_Lambert(diffuse_color) * (NoV > 0.0 ? NoL : 0.0);
 }
 
 // GGX (Trowbridge-Reitz) distribution: longer tails than Beckmann's.
@@ -274,14 +272,14 @@ float3 specular_cos(float3 f0, float roughness, float NoL, float NoV, float NxH2
 {
     const float dual_ggx_value = dual_ggx(roughness, NoL, NoV, NxH2, dual_specular_roughness_scale,
         dual_specular_opacity);
-    const float3 t0 = dual_ggx_value * F_Callisto(f0, OneMinusVoH, specular_fresnel_falloff) * NoL;
-    return NoL > 0.0 && NoV > 0.0 ? t0 : (float3)0.0;
+    const float3 F = F_Callisto(f0, OneMinusVoH, specular_fresnel_falloff);
+    return F * (NoV > 0.0 ? dual_ggx_value * NoL : 0.0);
 }
 
 // Callisto over Proxima.
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * proxima_cos(s.diffuse_color, s.alpha, g) * c2(g)
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:201
 float3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, float OneMinusNoH,
@@ -304,7 +302,7 @@ float3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, f
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:202
 float3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusNoH,
@@ -324,7 +322,7 @@ float3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
 // slides 85: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = c1(g) * lambert_cos(s.diffuse_color, g) * c2(g)
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:209
 float3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, float OneMinusNoH,
@@ -347,7 +345,7 @@ float3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, floa
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
-// OneMinusNoH is |n x h|^2 / (1 + n.h).
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:210
 float3 callisto_lambert_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
@@ -444,16 +442,19 @@ CallistoResult callisto(float3 l, float3 v, float3 n, CallistoSurface surface,
 {
     const float NoL = saturate(dot(n, l));
     const float NoV = saturate(dot(n, v));
-    const float3 h = guarded_normalize(l + v);
-    const float n_dot_h = dot(n, h);
-    const float NoH = saturate(n_dot_h);
-    const float VoH = saturate(dot(l, h));
+    const float3 l_plus_v = l + v;
+    const float3 h = guarded_normalize(l_plus_v);
+    const float3 n_minus_h = n - h;
+    const float length_squared = dot(l_plus_v, l_plus_v);
+    const float lacks_h = saturate(1.0 - 2.1267648e37 * length_squared);
+    const float OneMinusNoH = saturate(0.5 * dot(n_minus_h, n_minus_h) + lacks_h);
+    const float NoH = 1.0 - OneMinusNoH;
+    const float inverse_length = rsqrt(max(length_squared, 1.1754944e-38));
+    const float VoH = saturate(0.5 * (length_squared * inverse_length));
     const float VoL = clamp(dot(v, l), -1.0, 1.0);
-    const float3 n_cross_h = cross(n, h);
-    const float NxH2 = n_dot_h > 0.0 ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
-    const float OneMinusNoH = saturate(NxH2 / (1.0 + NoH));
     const float3 l_minus_v = l - v;
-    const float OneMinusVoH = saturate(0.25 * dot(l_minus_v, l_minus_v) / (1.0 + VoH));
+    const float OneMinusVoH = saturate(dot(l_minus_v, l_minus_v) / (4.0 + 4.0 * VoH));
+    const float NxH2 = saturate(OneMinusNoH * (2.0 - OneMinusNoH));
     CallistoResult result;
     result.diffuse = callisto_diffuse(NoL, NoV, NoH, VoH, VoL, OneMinusNoH, OneMinusVoH,
         surface.roughness, surface.diffuse_color, parameters.diffuse_fresnel,
@@ -552,15 +553,18 @@ CallistoLambertResult callisto_lambert(float3 l, float3 v, float3 n, CallistoLam
 {
     const float NoL = saturate(dot(n, l));
     const float NoV = saturate(dot(n, v));
-    const float3 h = guarded_normalize(l + v);
-    const float n_dot_h = dot(n, h);
-    const float NoH = saturate(n_dot_h);
-    const float VoH = saturate(dot(l, h));
-    const float3 n_cross_h = cross(n, h);
-    const float NxH2 = n_dot_h > 0.0 ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
-    const float OneMinusNoH = saturate(NxH2 / (1.0 + NoH));
+    const float3 l_plus_v = l + v;
+    const float3 h = guarded_normalize(l_plus_v);
+    const float3 n_minus_h = n - h;
+    const float length_squared = dot(l_plus_v, l_plus_v);
+    const float lacks_h = saturate(1.0 - 2.1267648e37 * length_squared);
+    const float OneMinusNoH = saturate(0.5 * dot(n_minus_h, n_minus_h) + lacks_h);
+    const float NoH = 1.0 - OneMinusNoH;
+    const float inverse_length = rsqrt(max(length_squared, 1.1754944e-38));
+    const float VoH = saturate(0.5 * (length_squared * inverse_length));
     const float3 l_minus_v = l - v;
-    const float OneMinusVoH = saturate(0.25 * dot(l_minus_v, l_minus_v) / (1.0 + VoH));
+    const float OneMinusVoH = saturate(dot(l_minus_v, l_minus_v) / (4.0 + 4.0 * VoH));
+    const float NxH2 = saturate(OneMinusNoH * (2.0 - OneMinusNoH));
     CallistoLambertResult result;
     result.diffuse = callisto_lambert_diffuse(NoL, NoV, NoH, VoH, OneMinusNoH, OneMinusVoH,
         surface.diffuse_color, parameters.diffuse_fresnel, parameters.diffuse_fresnel_falloff,

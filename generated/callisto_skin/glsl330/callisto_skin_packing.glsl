@@ -38,22 +38,13 @@
 #ifndef LOBE_CALLISTO_SKIN_PACKING_GLSL
 #define LOBE_CALLISTO_SKIN_PACKING_GLSL
 
-#ifndef LOBE_guarded_power_float
-#define LOBE_guarded_power_float
-// x^y for x >= 0, and 1 where y is 0: an x below the least normal number counts as that.
-float guarded_power(float x, float y)
-{
-    return pow(max(x, 1.17549435e-38), y);
-}
-#endif
-
 // The code of diffuse_fresnel: 128 codes over [0, 256], power(7, 57/127).
 // = round(57 * x^(1/7))
 // Returns [0, 127].
 // models/callisto_skin.lobe:10
 float encode_diffuse_fresnel(float x)
 {
-    return floor(guarded_power(clamp(x, 0.0, 256.0), 0.14285715) * 57.0 + 0.5);
+    return floor(pow(clamp(x, 0.0, 256.0), 0.14285715) * 57.0 + 0.5);
 }
 
 // Bits 1..7 of b.r: diffuse_fresnel, 128 codes over [0, 256], power(7, 57/127).
@@ -186,7 +177,7 @@ float decode_dual_specular_roughness_scale(float code)
 // models/callisto_skin.lobe:17
 float encode_retroreflection(float x)
 {
-    return floor(guarded_power(clamp(x, 0.0, 256.0), 0.09090909) * 154.0 + 0.5);
+    return floor(pow(clamp(x, 0.0, 256.0), 0.09090909) * 154.0 + 0.5);
 }
 
 // d.a: retroreflection, 256 codes over [0, 256], power(11, 154/255).

@@ -452,7 +452,8 @@ vec3 F_Schlick(vec3 f0, float VoH)
 {
     float one_minus_VoH = 1.0 - VoH;
     float one_minus_VoH2 = one_minus_VoH * one_minus_VoH;
-    return f0 + (1.0 - f0) * (one_minus_VoH2 * one_minus_VoH2 * one_minus_VoH);
+    float t0 = one_minus_VoH2 * one_minus_VoH2 * one_minus_VoH;
+    return f0 * (1.0 - t0) + t0;
 }
 
 // The power as a spherical Gaussian. Off by up to 3.8e-3, and not f0 at normal incidence.
@@ -462,7 +463,8 @@ vec3 F_Schlick(vec3 f0, float VoH)
 // models/microfacet.lobe:250
 vec3 F_Schlick_spherical_gaussian(vec3 f0, float VoH)
 {
-    return f0 + (1.0 - f0) * exp2((-5.55473 * VoH - 6.98316) * VoH);
+    float t0 = exp2((-5.55473 * VoH - 6.98316) * VoH);
+    return f0 * (1.0 - t0) + t0;
 }
 
 // The Fresnel equations for unpolarized light on a dielectric with this reflectance at normal
@@ -546,7 +548,8 @@ vec3 F_CookTorrance_schlick(vec3 f0, float VoH)
 // models/microfacet.lobe:291
 vec3 F_CookTorrance_spherical_gaussian(vec3 f0, float VoH)
 {
-    return f0 + (1.0 - f0) * exp2((-5.55473 * VoH - 6.98316) * VoH);
+    float t0 = exp2((-5.55473 * VoH - 6.98316) * VoH);
+    return f0 * (1.0 - t0) + t0;
 }
 
 // The same radiance in every direction.
@@ -576,7 +579,7 @@ vec3 Diffuse_Burley(vec3 diffuse_color, float roughness, float NoL, float NoV, f
     float one_minus_NoV = 1.0 - NoV;
     float one_minus_NoV2 = one_minus_NoV * one_minus_NoV;
     float seen = 1.0 + t0 * (one_minus_NoV2 * one_minus_NoV2 * one_minus_NoV);
-    return diffuse_color / 3.1415927 * lit * seen;
+    return diffuse_color * (lit * seen / 3.1415927);
 }
 
 // In place of factors that together lie between 1/4 and 25/4.
@@ -606,7 +609,7 @@ vec3 Diffuse_OrenNayar(vec3 diffuse_color, float sigma, float NoL, float NoV, fl
     float b = 0.45 * sigma2 / (sigma2 + 0.09);
     float t0 = max(NoL, NoV);
     float ratio = t0 >= 5.421011e-20 ? max(VoL - NoL * NoV, 0.0) / t0 : 0.0;
-    return diffuse_color / 3.1415927 * (a + b * ratio);
+    return diffuse_color * ((a + b * ratio) / 3.1415927);
 }
 
 // Smooth facets: the same at sigma = 0.

@@ -178,8 +178,8 @@ vec3 default_lit_specular(float NoL, float NoV, float NxH2, float OneMinusVoH, f
     vec3 f0)
 {
     float roughness2 = roughness * roughness;
-    float t0 = D_GGX(roughness2, NxH2) * V_SmithJointApprox(roughness2, NoL, NoV);
-    return t0 * F_Schlick_occluded(f0, OneMinusVoH) * NoL;
+    float t0 = D_GGX(roughness2, NxH2) * V_SmithJointApprox(roughness2, NoL, NoV) * NoL;
+    return F_Schlick_occluded(f0, OneMinusVoH) * t0;
 }
 
 // Mobile: no 1/pi in either part, the light's color carries it; F0 is not changed by the angle.
@@ -201,7 +201,7 @@ vec3 mobile_specular(float NoL, float NxH2, vec3 base_color, float metallic, flo
     float roughness)
 {
     vec3 SpecularColor_value = SpecularColor(base_color, metallic, specular);
-    return SpecularColor_value * specular_mobile(roughness, NxH2) * NoL;
+    return SpecularColor_value * (specular_mobile(roughness, NxH2) * NoL);
 }
 
 // Mobile, lit by a prefiltered environment: what its radiance is multiplied by. No cosine: the
@@ -241,12 +241,17 @@ DefaultLitResult default_lit(vec3 l, vec3 v, vec3 n, DefaultLitSurface surface)
 {
     float NoL = clamp(dot(n, l), 0.0, 1.0);
     float NoV = clamp(dot(n, v), 0.0, 1.0);
-    vec3 h = guarded_normalize(l + v);
-    vec3 n_cross_h = cross(n, h);
-    float NxH2 = dot(n, h) > 0.0 ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
+    vec3 l_plus_v = l + v;
+    vec3 h = guarded_normalize(l_plus_v);
+    vec3 n_minus_h = n - h;
+    float length_squared = dot(l_plus_v, l_plus_v);
+    float lacks_h = clamp(1.0 - 2.1267648e37 * length_squared, 0.0, 1.0);
+    float t0 = clamp(0.5 * dot(n_minus_h, n_minus_h) + lacks_h, 0.0, 1.0);
+    float NxH2 = clamp(t0 * (2.0 - t0), 0.0, 1.0);
     vec3 l_minus_v = l - v;
-    float t0 = 0.25 * dot(l_minus_v, l_minus_v) / (1.0 + clamp(dot(l, h), 0.0, 1.0));
-    float OneMinusVoH = clamp(t0, 0.0, 1.0);
+    float inverse_length = inversesqrt(max(length_squared, 1.1754944e-38));
+    float t1 = 4.0 + 4.0 * clamp(0.5 * (length_squared * inverse_length), 0.0, 1.0);
+    float OneMinusVoH = clamp(dot(l_minus_v, l_minus_v) / t1, 0.0, 1.0);
     DefaultLitResult result;
     result.diffuse = default_lit_diffuse(NoL, surface.diffuse_color);
     result.specular = default_lit_specular(NoL, NoV, NxH2, OneMinusVoH, surface.roughness,
@@ -281,9 +286,13 @@ struct MobileResult
 MobileResult mobile(vec3 l, vec3 v, vec3 n, MobileSurface surface)
 {
     float NoL = clamp(dot(n, l), 0.0, 1.0);
-    vec3 h = guarded_normalize(l + v);
-    vec3 n_cross_h = cross(n, h);
-    float NxH2 = dot(n, h) > 0.0 ? clamp(dot(n_cross_h, n_cross_h), 0.0, 1.0) : 1.0;
+    vec3 l_plus_v = l + v;
+    vec3 h = guarded_normalize(l_plus_v);
+    vec3 n_minus_h = n - h;
+    float length_squared = dot(l_plus_v, l_plus_v);
+    float lacks_h = clamp(1.0 - 2.1267648e37 * length_squared, 0.0, 1.0);
+    float t0 = clamp(0.5 * dot(n_minus_h, n_minus_h) + lacks_h, 0.0, 1.0);
+    float NxH2 = clamp(t0 * (2.0 - t0), 0.0, 1.0);
     MobileResult result;
     result.diffuse = mobile_diffuse(NoL, surface.base_color, surface.metallic);
     result.specular = mobile_specular(NoL, NxH2, surface.base_color, surface.metallic,

@@ -176,8 +176,8 @@ float3 default_lit_specular(float NoL, float NoV, float NxH2, float OneMinusVoH,
     float3 f0)
 {
     const float roughness2 = roughness * roughness;
-    const float t0 = D_GGX(roughness2, NxH2) * V_SmithJointApprox(roughness2, NoL, NoV);
-    return t0 * F_Schlick_occluded(f0, OneMinusVoH) * NoL;
+    const float t0 = D_GGX(roughness2, NxH2) * V_SmithJointApprox(roughness2, NoL, NoV) * NoL;
+    return F_Schlick_occluded(f0, OneMinusVoH) * t0;
 }
 
 // Mobile: no 1/pi in either part, the light's color carries it; F0 is not changed by the angle.
@@ -199,7 +199,7 @@ float3 mobile_specular(float NoL, float NxH2, float3 base_color, float metallic,
     float roughness)
 {
     const float3 SpecularColor_value = SpecularColor(base_color, metallic, specular);
-    return SpecularColor_value * specular_mobile(roughness, NxH2) * NoL;
+    return SpecularColor_value * (specular_mobile(roughness, NxH2) * NoL);
 }
 
 // Mobile, lit by a prefiltered environment: what its radiance is multiplied by. No cosine: the
@@ -239,12 +239,17 @@ DefaultLitResult default_lit(float3 l, float3 v, float3 n, DefaultLitSurface sur
 {
     const float NoL = saturate(dot(n, l));
     const float NoV = saturate(dot(n, v));
-    const float3 h = guarded_normalize(l + v);
-    const float3 n_cross_h = cross(n, h);
-    const float NxH2 = dot(n, h) > 0.0 ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
+    const float3 l_plus_v = l + v;
+    const float3 h = guarded_normalize(l_plus_v);
+    const float3 n_minus_h = n - h;
+    const float length_squared = dot(l_plus_v, l_plus_v);
+    const float lacks_h = saturate(1.0 - 2.1267648e37 * length_squared);
+    const float t0 = saturate(0.5 * dot(n_minus_h, n_minus_h) + lacks_h);
+    const float NxH2 = saturate(t0 * (2.0 - t0));
     const float3 l_minus_v = l - v;
-    const float OneMinusVoH = saturate(0.25 * dot(l_minus_v, l_minus_v)
-        / (1.0 + saturate(dot(l, h))));
+    const float inverse_length = rsqrt(max(length_squared, 1.1754944e-38));
+    const float t1 = 4.0 + 4.0 * saturate(0.5 * (length_squared * inverse_length));
+    const float OneMinusVoH = saturate(dot(l_minus_v, l_minus_v) / t1);
     DefaultLitResult result;
     result.diffuse = default_lit_diffuse(NoL, surface.diffuse_color);
     result.specular = default_lit_specular(NoL, NoV, NxH2, OneMinusVoH, surface.roughness,
@@ -279,9 +284,13 @@ struct MobileResult
 MobileResult mobile(float3 l, float3 v, float3 n, MobileSurface surface)
 {
     const float NoL = saturate(dot(n, l));
-    const float3 h = guarded_normalize(l + v);
-    const float3 n_cross_h = cross(n, h);
-    const float NxH2 = dot(n, h) > 0.0 ? saturate(dot(n_cross_h, n_cross_h)) : 1.0;
+    const float3 l_plus_v = l + v;
+    const float3 h = guarded_normalize(l_plus_v);
+    const float3 n_minus_h = n - h;
+    const float length_squared = dot(l_plus_v, l_plus_v);
+    const float lacks_h = saturate(1.0 - 2.1267648e37 * length_squared);
+    const float t0 = saturate(0.5 * dot(n_minus_h, n_minus_h) + lacks_h);
+    const float NxH2 = saturate(t0 * (2.0 - t0));
     MobileResult result;
     result.diffuse = mobile_diffuse(NoL, surface.base_color, surface.metallic);
     result.specular = mobile_specular(NoL, NxH2, surface.base_color, surface.metallic,

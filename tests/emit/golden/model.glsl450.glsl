@@ -3,15 +3,6 @@
 #ifndef LOBE_VELVET_GLSL
 #define LOBE_VELVET_GLSL
 
-#ifndef LOBE_guarded_normalize_vec3
-#define LOBE_guarded_normalize_vec3
-// v / |v|, and 0 of 0: a square of |v| below the least normal number counts as that.
-vec3 guarded_normalize(vec3 v)
-{
-    return v * inversesqrt(max(dot(v, v), 1.17549435e-38));
-}
-#endif
-
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/velvet.lobe:5
 float F_sheen(float OneMinusVoH, float sheen)
@@ -60,8 +51,11 @@ VelvetResult velvet(vec3 l, vec3 v, vec3 n, VelvetSurface surface, VelvetParamet
 {
     float NoL = clamp(dot(n, l), 0.0, 1.0);
     vec3 l_minus_v = l - v;
-    float t0 = 1.0 + clamp(dot(l, guarded_normalize(l + v)), 0.0, 1.0);
-    float OneMinusVoH = clamp(0.25 * dot(l_minus_v, l_minus_v) / t0, 0.0, 1.0);
+    vec3 l_plus_v = l + v;
+    float length_squared = dot(l_plus_v, l_plus_v);
+    float inverse_length = inversesqrt(max(length_squared, 1.1754944e-38));
+    float t0 = 4.0 + 4.0 * clamp(0.5 * (length_squared * inverse_length), 0.0, 1.0);
+    float OneMinusVoH = clamp(dot(l_minus_v, l_minus_v) / t0, 0.0, 1.0);
     VelvetResult result;
     result.diffuse = velvet_diffuse(NoL, OneMinusVoH, surface.diffuse_color, parameters.sheen);
     return result;
