@@ -4,6 +4,7 @@
 #include "cli/files.h"
 #include "cli/program.h"
 #include "cli/settings.h"
+#include "cli/told.h"
 #include "lobe/lobe.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ struct Build {
     std::string output = "generated";
     ChoiceRequest choice;
     bool check = false;
+    bool explain = false;
 
     int run(const Terminal& terminal) const
     {
@@ -36,6 +38,7 @@ struct Build {
         const Program program = load(terminal, inputs);
         print(terminal, program.diagnostics, program.sources);
         if (program.status != success) return program.status;
+        if (explain) fmt::print("{}", told(program));
 
         std::vector<emit::Artifact> artifacts;
         if (choice.is_set()) {
@@ -124,6 +127,8 @@ void add_build(CLI::App& app, const Terminal& terminal, int& status)
     command->add_flag("--check", build->check,
                       "Write nothing; exit 1 when a file in the output folder is stale, missing "
                       "or an orphan");
+    command->add_flag("--explain", build->explain,
+                      "Say which rewrite or guard was used where, why, and what it gained");
     const std::string group = "Choosing forms";
     ChoiceRequest& choice = build->choice;
     command
