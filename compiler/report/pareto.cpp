@@ -125,8 +125,8 @@ std::string to_text(const analyze::Pareto& pareto, Family family, bool all, std:
             text += fmt::format("{} of {} candidates: those on the frontier of {}\n",
                                 table.rows.size(), trade.candidates.size(), analyze::title(family));
         if (trade.quantization)
-            text += fmt::format("packing: up to {}, {:.1f} codes; median {}\n",
-                                percent_of(trade.quantization->scaled), trade.quantization->codes,
+            text += fmt::format("its packing adds up to {}; median {}\n",
+                                percent_of(trade.quantization->scaled),
                                 percent_of(trade.quantization->typical));
         text += styled(fmt::format("lobec pareto {} --{} {}{}", path,
                                    trade.whole_model ? "model" : "term", trade.name, options),

@@ -106,9 +106,10 @@ Section section_of(const Trade& trade, const std::string& path)
                      trade.whole_model ? ", by which frontiers are drawn" : ""),
          Style::faint});
     if (trade.quantization)
-        out.paragraphs.push_back({fmt::format("Its packing adds {}, {} codes, to any of these.",
+        out.paragraphs.push_back({fmt::format("Its packing adds up to {} to any of these, {} in "
+                                              "the median.",
                                               percent_of(trade.quantization->scaled),
-                                              short_number(trade.quantization->codes)),
+                                              percent_of(trade.quantization->typical)),
                                   Style::faint});
     if (std::string picture = trade_picture(trade); !picture.empty())
         out.pictures.push_back(std::move(picture));

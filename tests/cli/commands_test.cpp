@@ -18,8 +18,8 @@ const std::string model = "module small\n\n/// Twice x.\nterm twice(x: unit) -> 
 TEST_CASE("every command has help with an example")
 {
     const Scratch scratch;
-    for (const char* command :
-         {"build", "check", "format", "evaluate", "pack", "cost", "verify", "explain", "devices"}) {
+    for (const char* command : {"build", "check", "format", "evaluate", "pack", "cost", "pareto",
+                                "verify", "explain", "devices"}) {
         const Outcome outcome = scratch.run(fmt::format("lobec {} --help", command));
         CAPTURE(command);
         CHECK(outcome.status == 0);
