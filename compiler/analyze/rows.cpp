@@ -1,5 +1,8 @@
 #include "analyze/rows.h"
 
+#include "analyze/radiance_search.h"
+#include "analyze/tasks.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -147,6 +150,29 @@ std::string Rows::describe(std::size_t row) const
                             value);
     }
     return open.empty() ? text : text + ")";
+}
+
+std::vector<Rows> survey(const Yardstick& yardstick, std::size_t points, unsigned jobs)
+{
+    constexpr std::size_t part = 1024;
+    const StoredAs nothing(yardstick.box().width(), nullptr);
+    const std::size_t parts = std::max<std::size_t>(1, points / part);
+    std::vector<Rows> out(parts, Rows{yardstick, part});
+    for_each_task(parts, jobs, [&](std::size_t task) {
+        RadianceMeter meter{yardstick.box(), part};
+        for (std::size_t row = 0; row < part; ++row) {
+            const std::size_t index = task * part + row;
+            if (index % 2 != 0)
+                place_point(yardstick.box(), nothing, index, meter, row);
+            else
+                place_usual_point(yardstick.box(),
+                                  index % 4 == 0 ? Directions::anywhere : Directions::near_peak,
+                                  index, meter, row);
+        }
+        out[task].take(meter);
+        out[task].settle();
+    });
+    return out;
 }
 
 }  // namespace lobe::analyze

@@ -21,6 +21,7 @@ public:
 
     std::size_t size() const { return size_; }
     float* column(std::size_t coordinate) { return &given_[coordinate * size_]; }
+    const float* column(std::size_t coordinate) const { return &given_[coordinate * size_]; }
     std::vector<float> point(std::size_t row) const;
 
     /// What a meter holds, up to the number of rows.
@@ -52,5 +53,9 @@ private:
     std::vector<double> exact_;
     std::vector<double> floors_;
 };
+
+/// Points over the box, settled, in parts: every second one a usual one (deviation.h), the others
+/// where errors are.
+std::vector<Rows> survey(const Yardstick& yardstick, std::size_t points, unsigned jobs);
 
 }  // namespace lobe::analyze

@@ -109,6 +109,11 @@ Tally::report(const std::function<Confirmed(const Rows& rows, std::size_t row)>&
         if (i > 0 && worst.error <= out.scaled) break;
         const Rows& rows = *worst.rows;
         const Confirmed values = confirm(rows, worst.row);
+        if (values.from.empty()) {
+            out.scaled = worst.error;
+            out.at = rows.describe(worst.row);
+            break;
+        }
         over_reals = !values.to.empty();
         const std::vector<double>& to = over_reals ? values.to : worst.to;
         double scaled = 0;

@@ -14,7 +14,8 @@ namespace lobe::analyze {
 double scaled_error(const Rows& rows, std::size_t row, const std::vector<double>& from,
                     const std::vector<double>& to);
 
-/// The two values of one point with more digits; `to` stays empty where it is a format's own.
+/// The two values of one point with more digits. `to` stays empty where it is a format's own, both
+/// where there are no more.
 struct Confirmed {
     std::vector<double> from;
     std::vector<double> to;

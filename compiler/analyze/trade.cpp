@@ -1,5 +1,6 @@
 #include "analyze/trade.h"
 
+#include "analyze/lookup.h"
 #include "analyze/tasks.h"
 #include "analyze/trade_costs.h"
 #include "analyze/yardstick.h"
@@ -69,7 +70,7 @@ public:
     {
         std::vector<Drafted> drafts =
             draft(subject_, subject_.choices(most_forms_), options_.cost.jobs);
-        const bool half = !subject_.is_model() || is_finite_in_half(drafts.front());
+        const bool half = is_finite_in_half(drafts.front());
         // What is the same text as something before is the same candidate.
         std::vector<Way> ways;
         std::map<std::string, std::size_t> known;  // by text: the first of its candidates
@@ -96,14 +97,20 @@ public:
         out.search = words(out, half);
     }
 
+    /// Tables in place of the definition, without costs.
+    std::vector<Candidate> tables() const
+    {
+        return lookup_candidates(subject_, yardstick_, options_);
+    }
+
 private:
-    /// Of a model only what ships is looked at in half precision, and if that is not finite, no
-    /// other choice of forms is.
+    /// Where what ships is not finite in half precision, no more care can make it so by less of it;
+    /// of a term its forms may be, of a model they are not looked at.
     bool has_half(const optimize::Choice& choice, Spelling spelling, bool half) const
     {
         if (spelling == Spelling::naive) return false;
-        if (!subject_.is_model()) return true;
-        return spelling == Spelling::stable && (half || choice.empty());
+        if (subject_.is_model()) return spelling == Spelling::stable && (half || choice.empty());
+        return half || spelling == Spelling::stable;
     }
 
     bool is_finite_in_half(const Drafted& definition) const
@@ -174,7 +181,8 @@ private:
                               "(more may be better)",
                               evaluated, all, most_forms_);
         text += fmt::format(", {} ways in all", out.candidates.size());
-        if (!half) text += "; in half only of the definitions, which are not finite in it";
+        if (!half && subject_.is_model())
+            text += "; in half only of the definitions, which are not finite in it";
         return text;
     }
 
@@ -196,9 +204,11 @@ Trade trade(const TradeSubject& subject, const FoundNames& found, const ParetoOp
     out.whole_model = subject.is_model();
     out.from_vectors = subject.has_geometry();
     Ledger ledger;
-    Errors{subject, found, options, store}.run(out, ledger);
+    Errors errors{subject, found, options, store};
+    errors.run(out, ledger);
     const std::string costs = fill_in_costs(out, subject, ledger, options, measurer);
     if (!costs.empty()) out.search += "; " + costs;
+    for (Candidate& table : errors.tables()) out.candidates.push_back(std::move(table));
     judge(out);
     return out;
 }

@@ -13,12 +13,17 @@ namespace {
 
 /// So few are all measured.
 constexpr std::size_t always_measured = 64;
+/// Off by as much as there is: nobody builds it, however cheap.
+constexpr double useless = 1;
+/// So few are measured together, though some of them might exclude others.
+constexpr std::size_t few = 12;
 /// Modules that are held at once while their costs are measured.
 constexpr std::size_t batch = 48;
 /// How far off an estimate is thought to be at first: cycles, and of the definition's cost.
 constexpr double least_margin = 2;
 constexpr double margin_share = 0.04;
 
+constexpr auto rdna2 = static_cast<std::size_t>(Family::rdna2);
 using FamilyCycles = std::array<double, all_families.size()>;
 
 class CostSearch {
@@ -52,11 +57,10 @@ public:
         }
         const std::size_t count = of([this](std::size_t i) { return measured_[i]; }).size();
         std::string words = fmt::format(
-            "costs of {}; every other one is dominated on every family, by its estimate from "
-            "single "
-            "changes and also if that were {:.1f} cycles too high on RDNA2; the worst of {} "
-            "estimates that were measured was {:.1f} off",
-            count, margin_[3], compared_, worst_[3]);
+            "costs of {}; every other one is off by more than 100 %, or dominated on every family "
+            "by its estimate from single changes, also if that were {:.1f} cycles too high on "
+            "RDNA2; the worst of {} estimates that were measured was {:.1f} off",
+            count, margin_[rdna2], compared_, worst_[rdna2]);
         keep_measured();
         return words;
     }
@@ -164,7 +168,7 @@ private:
     bool is_excluded(std::size_t i) const
     {
         const double error = trade_.error_of(trade_.candidates[i]);
-        if (!std::isfinite(error)) return true;
+        if (error > useless) return true;
         for (std::size_t family = 0; family < all_families.size(); ++family) {
             const double least = estimates_[i][family] - margin_[family];
             bool dominated = false;
@@ -177,9 +181,11 @@ private:
         return true;
     }
 
-    /// Those of `left` that no other of them dominates by estimate, on some family.
+    /// Those of `left` that no other of them dominates by estimate, on some family; all, if they
+    /// are few.
     std::vector<std::size_t> most_promising(const std::vector<std::size_t>& left) const
     {
+        if (left.size() <= few) return left;
         std::vector<std::size_t> result;
         for (const std::size_t i : left) {
             const double error = trade_.error_of(trade_.candidates[i]);

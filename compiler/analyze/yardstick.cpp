@@ -16,7 +16,7 @@
 namespace lobe::analyze {
 namespace {
 
-constexpr std::size_t chunk = 1024;
+constexpr std::size_t least_hostile = 1024;
 constexpr std::size_t most_shared = 512;  ///< worst points that everyone is tried on
 
 bool same_input(const ir::Input& a, const ir::Input& b)
@@ -152,24 +152,9 @@ private:
     /// The points over the box, and those where only NaN and infinities are looked for.
     void survey()
     {
-        const std::size_t chunks = std::max<std::size_t>(1, options_.points / chunk);
-        ground_.assign(chunks, Rows{yardstick_, chunk});
-        for_each_task(chunks, options_.jobs, [&](std::size_t task) {
-            RadianceMeter meter{yardstick_.box(), chunk};
-            for (std::size_t row = 0; row < chunk; ++row) {
-                const std::size_t index = task * chunk + row;
-                if (index % 2 == 0)
-                    place_usual_point(yardstick_.box(),
-                                      index % 4 == 0 ? Directions::anywhere : Directions::near_peak,
-                                      index, meter, row);
-                else
-                    place_point(yardstick_.box(), nothing_stored_, index, meter, row);
-            }
-            ground_[task].take(meter);
-            ground_[task].settle();
-        });
+        ground_ = analyze::survey(yardstick_, options_.points, options_.jobs);
         const Points hostile = points(yardstick_.module(), yardstick_.function(),
-                                      std::max(chunk, options_.points / 4));
+                                      std::max(least_hostile, options_.points / 4));
         hostile_.emplace(yardstick_, hostile.size());
         for (std::size_t i = 0; i < hostile.columns.size(); ++i)
             std::ranges::copy(hostile.columns[i], hostile_->column(i));

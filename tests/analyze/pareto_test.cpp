@@ -5,6 +5,7 @@
 #include "compile.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <map>
@@ -198,6 +199,32 @@ TEST_CASE("the naive spelling shows where it is undefined")
     CHECK(trade.from_vectors);
 }
 
+TEST_CASE("a table is off by its interpolation and its texels")
+{
+    // A parabola in x, straight in y: between texels h apart it is off by h^2 / 8 times the second
+    // derivative, 2 * 16 / 4096, at the middle of every cell.
+    const Checked checked = checked_text("/// X.\nterm f(x: unit, y: unit) -> float =\n"
+                                         "  sum i in 0 .. 15 { ((x + i)^2 + y * i) / 4096 }\n");
+    const Trade trade = of_term(*checked.module, "f");
+    for (const int size : {32, 128}) {
+        CAPTURE(size);
+        const double h = 1.0 / (size - 1);
+        const double exact = h * h / 8 * 2 * 16 / 4096;
+        const Candidate& table = find(trade, fmt::format("f: table {0} x {0}, unorm 16", size));
+        // In x at most 2 * 16 * 8.5 / 4096 per unit, in y 16 * 7.5 / 4096. Texels stand on floats.
+        const double slope = (2 * 16 * 8.5 + 16 * 7.5) / 4096;
+        CHECK(table.model.absolute <= exact + slope * half_ulp);
+        CHECK(table.model.absolute > 0.98 * exact);
+        CHECK_FALSE(table.selectable);
+        // Half a step of a texel, and half of 1/256 of what a cell rises.
+        CHECK(table.rounding.absolute <= 0.5 / 65535 + slope * h / 512 + 1e-9);
+        CHECK(table.rounding.absolute > 0.25 / 65535);
+        // Halves near 0.5 are 2^-12 apart or more.
+        const Candidate& half = find(trade, fmt::format("f: table {0} x {0}, half", size));
+        CHECK(half.total.absolute > table.total.absolute);
+    }
+}
+
 TEST_CASE("what is dominated names the cheapest that does it")
 {
     Trade trade;
@@ -258,11 +285,12 @@ Trade joint(const ir::Module& module, const analyze::ParetoOptions& options,
                           options, counted, store);
 }
 
+/// Of what is off by no more than there is.
 std::map<std::string, double> frontier_of(const Trade& trade, std::size_t family)
 {
     std::map<std::string, double> out;
     for (const Candidate& candidate : trade.candidates)
-        if (candidate.standing[family].on_frontier)
+        if (candidate.standing[family].on_frontier && trade.error_of(candidate) <= 1)
             out[describe(candidate)] = trade.error_of(candidate);
     return out;
 }
