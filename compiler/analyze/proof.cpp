@@ -241,7 +241,7 @@ private:
             (by_absolute.ratio() <= by_relative.ratio() ? by_absolute : by_relative)
                 .refine(share(1), wanted);
         Division by_jump{subject, Machine::kernels, Measure::jump, jumps};
-        by_jump.refine(share(64), sharp);
+        by_jump.refine(share(16), sharp);
         take(out_.ieee, by_absolute, by_relative, by_jump);
         observe(subject, relative, out_.ieee.observed_relative);
         observe(subject, absolute, out_.ieee.observed_absolute);
@@ -252,7 +252,7 @@ private:
         Division any_jump{subject, Machine::vulkan, Measure::jump, jumps};
         any_absolute.refine(share(32), sharp_vulkan);
         any_relative.refine(share(32), sharp_vulkan);
-        any_jump.refine(share(64), sharp_vulkan);
+        any_jump.refine(share(32), sharp_vulkan);
         take(out_.vulkan, any_absolute, any_relative, any_jump);
         out_.vulkan.observed_absolute = out_.ieee.observed_absolute;
         out_.vulkan.observed_relative = out_.ieee.observed_relative;

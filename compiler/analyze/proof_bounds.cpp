@@ -1,13 +1,11 @@
 #include "analyze/proof_bounds.h"
 
+#include "analyze/grid.h"
 #include "evaluate/bounds.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
-#include <queue>
 #include <utility>
 
 namespace lobe::analyze {
@@ -23,14 +21,20 @@ using evaluate::RoundingBounds;
 constexpr double worthwhile_near = 0.9;
 constexpr double worthwhile_far = 0.1;
 
-bool less_bad(const auto& a, const auto& b) { return a.bound < b.bound; }
+/// Of equal bounds the deeper box comes first, so that a jump is followed to where it happens.
+bool less_bad(const auto& a, const auto& b)
+{
+    return a.bound < b.bound || (a.bound == b.bound && a.depth < b.depth);
+}
 
 /// A small part of a side. Not a point: there operations may happen to be exact.
 Interval around(double x, const Interval& side)
 {
     const double size = std::abs(x);
     const double from_one = std::abs(1 - size);
-    const double radius = std::max(std::min(size, from_one) / 64, 0x1p-24);
+    const double width = side.high - side.low;
+    const double radius =
+        std::max(std::min({size, from_one, width}) / 64, std::min(width, 1.0) * 0x1p-24);
     return {std::max(side.low, x - radius), std::min(side.high, x + radius)};
 }
 
@@ -117,27 +121,30 @@ void Division::search()
     }
 }
 
-/// The side that alone, with all others near the worst known point or in their middles, widens the
-/// bound most: no other cut helps until that one is made, however many it takes.
+/// The side that widens the bound most: it alone at full width, with all others near the worst
+/// known point or in their middles; or all at full width but it. No other cut helps until that one
+/// is made, however many it takes.
 std::optional<std::size_t> Division::loosest(const Leaf& parent, bool at_worst)
 {
     if (parent.box.size() < 3 || worst_.point() == nullptr) return std::nullopt;
-    Box at = parent.box;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        const double x = at_worst ? std::clamp<double>((*worst_.point())[i], at[i].low, at[i].high)
-                                  : at[i].low + (at[i].high - at[i].low) / 2;
-        at[i] = around(x, at[i]);
+    Box narrow = parent.box;
+    for (std::size_t i = 0; i < narrow.size(); ++i) {
+        const Interval& side = narrow[i];
+        const double x = at_worst ? std::clamp<double>((*worst_.point())[i], side.low, side.high)
+                                  : side.low + (side.high - side.low) / 2;
+        narrow[i] = around(x, side);
     }
-    const double tight = bound_of(at);
+    const double tight = bound_of(narrow);
+    Box wide = parent.box;
     std::optional<std::size_t> result;
-    double most = 1.1 * tight;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        if (parent.box[i].low == parent.box[i].high) continue;
-        const Interval point = std::exchange(at[i], parent.box[i]);
-        const double bound = bound_of(at);
-        at[i] = point;
-        if (bound > most) {
-            most = bound;
+    double most = 1.1;
+    for (std::size_t i = 0; i < wide.size(); ++i) {
+        if (wide[i].low == wide[i].high) continue;
+        std::swap(wide[i], narrow[i]);
+        const double gain = std::max(bound_of(narrow) / tight, parent.bound / bound_of(wide));
+        std::swap(wide[i], narrow[i]);
+        if (gain > most) {
+            most = gain;
             result = i;
         }
     }
@@ -162,7 +169,7 @@ bool Division::divide_worst()
     double best = evaluate::infinity;
     double best_doubt = evaluate::infinity;
     for (const Cut& cut : cuts) {
-        auto [below, above] = halves(parent.box, cut);
+        auto [below, above] = halves(subject_, parent.box, cut);
         Leaf left = leaf(std::move(below), parent.depth + 1);
         Leaf right = leaf(std::move(above), parent.depth + 1);
         const double most = std::max(left.bound, right.bound);
@@ -216,11 +223,15 @@ void cuts_of(const Interval& side, std::size_t index, std::vector<Cut>& cuts)
     }
 }
 
-std::pair<Box, Box> halves(const Box& box, const Cut& cut)
+std::pair<Box, Box> halves(const Subject& subject, const Box& box, const Cut& cut)
 {
+    const Grid& grid = grid_of(subject.precision);
+    const Interval& side = box[cut.side];
+    double at = on_grid(cut.at, side, subject.precision);
+    if (at >= side.high) at = next_below(side.high, grid);
     std::pair<Box, Box> result{box, box};
-    result.first[cut.side].high = cut.at;
-    result.second[cut.side].low = cut.at;
+    result.first[cut.side].high = at;
+    result.second[cut.side].low = next_above(at, grid);
     return result;
 }
 

@@ -18,7 +18,8 @@ struct Cut {
 };
 /// Where it makes sense to cut a side: in the middle, by binades toward 0, and toward 1.
 void cuts_of(const evaluate::Interval& side, std::size_t index, std::vector<Cut>& cuts);
-std::pair<Box, Box> halves(const Box& box, const Cut& cut);
+/// Both halves; their ends are numbers of the grid, and every such number is in one of them.
+std::pair<Box, Box> halves(const Subject& subject, const Box& box, const Cut& cut);
 
 /// The boxes of one subject, machine and measure. `worst` is where the search for bad points goes
 /// on: in the boxes whose bounds are worst.
@@ -56,7 +57,7 @@ private:
     evaluate::RoundingBounds bounds_;
     std::vector<Leaf> leaves_;  ///< a heap, worst first
     std::size_t spent_ = 0;
-    std::size_t next_search_ = 256;
+    std::size_t next_search_ = 64;
 };
 
 /// Finds bad points of the whole box, before any division.

@@ -1,5 +1,6 @@
 #include "analyze/proof_finite.h"
 
+#include "analyze/grid.h"
 #include "analyze/proof_bounds.h"
 #include "evaluate/acceptance.h"
 #include "evaluate/bounds.h"
@@ -41,13 +42,25 @@ void cut(Acceptance& x, Limit::Kind kind, const Acceptance& other)
     if (x.low > x.high) x.high = x.low;
 }
 
+/// A box of inputs and, behind them, of the values that more than one operation reads. A device
+/// computes each of those once, so cases of its value may be told apart like those of an input; in
+/// sum and quotient of the same value that is what keeps them together.
 class Prover {
 public:
     explicit Prover(const Subject& subject)
         : subject_{subject}, rules_{evaluate::rules(subject.precision)},
-          values_(subject.operations.nodes.size())
+          values_(subject.operations.nodes.size()), side_of_(subject.operations.nodes.size())
     {
         const auto& nodes = subject.operations.nodes;
+        std::vector<int> users(nodes.size());
+        for (const RoundingNode& node : nodes)
+            for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k)
+                ++users[node.operands[k]];
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            if (nodes[i].kind == RoundingNode::Kind::operation && users[i] > 1) {
+                shared_.push_back(i);
+                side_of_[i] = subject.box.size() + shared_.size() - 1;
+            }
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             if (nodes[i].kind != RoundingNode::Kind::literal) continue;
             const double value = subject.precision == evaluate::Precision::float32
@@ -73,8 +86,26 @@ public:
                 cut(operands[limit.operand], limit.kind, values_[limit.other]);
             values_[i] = evaluate::apply(rules_, node.op, operands[0], operands[1], operands[2],
                                          operands[3]);
+            if (side_of_[i] == 0 || side_of_[i] >= box.size() || !is_finite(values_[i])) continue;
+            const Interval& side = box[side_of_[i]];
+            Acceptance& value = values_[i];
+            if (value.low > side.high || value.high < side.low) return never;
+            value.low = std::max(value.low, side.low);
+            value.high = std::min(value.high, side.high);
         }
         return values_.back();
+    }
+    /// The same box with sides for the shared values that are known to be finite; the others stay
+    /// as they are.
+    Box with_shared(Box box)
+    {
+        run(box);
+        for (const std::size_t node : shared_) {
+            const Acceptance& value = values_[node];
+            box.push_back(is_finite(value) ? Interval{value.low, value.high}
+                                           : Interval{-evaluate::infinity, evaluate::infinity});
+        }
+        return box;
     }
     bool proves(const Box& box) { return is_finite(run(box)); }
 
@@ -88,7 +119,8 @@ public:
             std::string operands;
             for (std::size_t k = 0; k < static_cast<std::size_t>(nodes[i].arity); ++k) {
                 const Acceptance& x = values_[nodes[i].operands[k]];
-                operands += fmt::format("{}[{:.6g}, {:.6g}]", k == 0 ? "" : ", ", x.low, x.high);
+                if (k > 0) operands += ", ";
+                operands += fmt::format("[{:.6g}, {:.6g}]", x.low, x.high);
             }
             const std::string_view what =
                 values_[i].undefined ? "may be undefined" : "may overflow";
@@ -115,6 +147,9 @@ private:
     const Subject& subject_;
     const evaluate::Rules& rules_;
     std::vector<Acceptance> values_;
+    std::vector<std::size_t> shared_;
+    std::vector<std::size_t> side_of_;               ///< of a shared value; 0: none
+    static constexpr Acceptance never{0, 0, false};  ///< no input of the box gets there
 };
 
 /// The size of a box as part of a whole one, by binades where a side reaches 0.
@@ -128,10 +163,10 @@ double volume(const Box& box, const Box& whole)
     return result;
 }
 
-/// Joins boxes that differ in one side, where they touch.
-void join(std::vector<Box>& boxes)
+/// Joins boxes that differ in one side, where there is no number between them.
+void join(std::vector<Box>& boxes, const Grid& grid)
 {
-    const auto joined = [](Box& a, const Box& b) {
+    const auto joined = [&grid](Box& a, const Box& b) {
         std::optional<std::size_t> side;
         for (std::size_t i = 0; i < a.size(); ++i) {
             if (a[i] == b[i]) continue;
@@ -139,7 +174,9 @@ void join(std::vector<Box>& boxes)
             side = i;
         }
         if (!side) return true;
-        if (a[*side].high < b[*side].low || b[*side].high < a[*side].low) return false;
+        if (next_above(a[*side].high, grid) < b[*side].low ||
+            next_above(b[*side].high, grid) < a[*side].low)
+            return false;
         a[*side] = {std::min(a[*side].low, b[*side].low), std::max(a[*side].high, b[*side].high)};
         return true;
     };
@@ -156,40 +193,78 @@ void join(std::vector<Box>& boxes)
 
 }  // namespace
 
-Finite prove_finite(const Subject& subject, const Box& box, std::size_t budget)
+namespace {
+
+/// How much of a side a part of it is: by width, and by binades.
+double share_of(const Interval& part, const Interval& side)
 {
-    Prover prover{subject};
-    Finite result;
-    std::deque<Box> waiting{box};
-    while (!waiting.empty() && result.boxes < budget) {
+    const auto binades = [](const Interval& of) {
+        const auto at = [](double x) { return std::log2(std::max(std::abs(x), 0x1p-150)); };
+        return of.low < 0 && of.high > 0 ? 300 + at(of.low) + at(of.high)
+                                         : std::abs(at(of.high) - at(of.low));
+    };
+    return (part.high - part.low) / (side.high - side.low) +
+           binades(part) / std::max(binades(side), 1e-6);
+}
+
+/// Divides boxes until they are proved or the budget is spent; what is left is open.
+std::vector<Box> divide(const Subject& subject, Prover& prover, std::deque<Box> waiting,
+                        std::size_t budget, std::size_t& looked)
+{
+    const std::size_t end = looked + budget;
+    std::vector<Box> open;
+    while (!waiting.empty() && looked < end) {
         const Box parent = std::move(waiting.front());
         waiting.pop_front();
-        ++result.boxes;
+        ++looked;
         if (prover.proves(parent)) continue;
         std::vector<Cut> cuts;
-        for (std::size_t i = 0; i < parent.size(); ++i) cuts_of(parent[i], i, cuts);
-        if (cuts.empty()) {
-            result.open.push_back(parent);
-            continue;
-        }
+        for (std::size_t i = 0; i < parent.size(); ++i)
+            if (parent[i].high < evaluate::infinity) cuts_of(parent[i], i, cuts);
         std::optional<std::pair<Box, Box>> best;
+        double most_proved = 0;
         double best_doubt = 0;
         for (const Cut& cut : cuts) {
-            auto parts = halves(parent, cut);
+            auto parts = halves(subject, parent, cut);
             const double doubt = prover.doubt(parts.first) + prover.doubt(parts.second);
-            result.boxes += 2;
-            if (best && doubt >= best_doubt) continue;
+            double proved = 0;
+            for (const Box* part : {&parts.first, &parts.second})
+                if (prover.proves(*part)) proved += share_of((*part)[cut.side], parent[cut.side]);
+            looked += 2;
+            if (best && (proved < most_proved || (proved == most_proved && doubt >= best_doubt)))
+                continue;
             best = std::move(parts);
+            most_proved = proved;
             best_doubt = doubt;
+        }
+        if (!best) {
+            open.push_back(parent);
+            continue;
         }
         waiting.push_back(std::move(best->first));
         waiting.push_back(std::move(best->second));
     }
     for (Box& left : waiting)
-        if (!prover.proves(left)) result.open.push_back(std::move(left));
-    join(result.open);
+        if (!prover.proves(left)) open.push_back(std::move(left));
+    return open;
+}
+
+}  // namespace
+
+Finite prove_finite(const Subject& subject, const Box& box, std::size_t budget)
+{
+    Prover prover{subject};
+    Finite result;
+    std::vector<Box> open = divide(subject, prover, {box}, budget / 2, result.boxes);
+    join(open, grid_of(subject.precision));
     std::ranges::stable_sort(
-        result.open, [&](const Box& a, const Box& b) { return volume(a, box) > volume(b, box); });
+        open, [&](const Box& a, const Box& b) { return volume(a, box) > volume(b, box); });
+    // By cases of values on the way, box by box.
+    for (const Box& left : open) {
+        const std::size_t share = std::max<std::size_t>(budget / 2 / open.size(), 64);
+        if (!divide(subject, prover, {prover.with_shared(left)}, share, result.boxes).empty())
+            result.open.push_back(left);
+    }
     return result;
 }
 

@@ -76,7 +76,9 @@ Acceptance Device::within(double low, double high, bool undefined) const
     const double least = std::min(round_up(low), rules_.largest);
     const double most = std::max(round_down(high), -rules_.largest);
     if (least > most) return rounded({low, high}, undefined);
-    return flushed({low == -infinity ? low : least, high == infinity ? high : most, undefined});
+    // Beyond the largest number is the infinity, too.
+    return flushed({low < -rules_.largest ? -infinity : least,
+                    high > rules_.largest ? infinity : most, undefined});
 }
 
 Acceptance Device::within_units(Interval exact, double low_units, double high_units,

@@ -221,26 +221,33 @@ Step Rules::combine(Interval exact, Interval through, const Own& own, bool choos
     double absolute = 0;
     double relative = 0;
     double underflow = 0;
+    // Where an operand jumps, no bound that knows its relative error counts: the whole error once
+    // more, by absolute slopes.
     double jump = extra_jump_;
+    bool jumps = extra_jump_ > 0;
     const auto gather = [chooses](double& total, double part) {
         total = chooses ? std::max(total, part) : total + part;
     };
     for (std::size_t i = 0; i < in_.size(); ++i) {
         const Rounded& x = in_[i];
         const Slope& slope = slopes_[i];
-        gather(absolute, std::min(times(size(slope.aa), x.absolute),
-                                  times(size(slope.ar), x.relative) +
-                                      times(size(slope.aa), folded_[i] ? 0 : x.underflow)));
-        const double through_relative = times(size(slope.rr), x.relative);
+        // An unknown relative error says nothing, not even where the operand is 0.
+        const bool known = x.relative < infinity;
+        const double by_relative = known ? times(size(slope.ar), x.relative) +
+                                               times(size(slope.aa), folded_[i] ? 0 : x.underflow)
+                                         : infinity;
+        gather(absolute, std::min(times(size(slope.aa), x.absolute), by_relative));
+        const double through_relative = known ? times(size(slope.rr), x.relative) : infinity;
         const double through_absolute = times(size(slope.ra), x.absolute);
         // In the units of the operand's own bound, so that the parts of a sum stay comparable.
-        if (x.relative == infinity || (through_absolute <= through_relative && x.underflow == 0)) {
+        if (!known || (through_absolute <= through_relative && x.underflow == 0)) {
             gather(relative, std::min(through_absolute, through_relative));
         } else {
             gather(relative, through_relative);
             if (!folded_[i]) gather(underflow, times(size(slope.aa), x.underflow));
         }
-        gather(jump, times(size(slope.aa), x.jump));
+        jumps = jumps || times(size(slope.aa), x.jump) > 0;
+        gather(jump, times(size(slope.aa), x.jump + x.absolute));
     }
     relative += extra_relative_;
     if (extra_relative_ > 0) absolute += times(extra_relative_, size(exact));
@@ -251,7 +258,15 @@ Step Rules::combine(Interval exact, Interval through, const Own& own, bool choos
     value.relative = outward(relative + own.relative * (1 + relative));
     value.underflow = outward(times(underflow, 1 + own.relative) + own.underflow);
     const double all_underflow = value.underflow;
-    value.jump = outward(jump);
+    value.jump = jumps ? outward(jump + own.absolute) : 0;
+
+    // An operand that may have overflowed may make a NaN, or stay infinite. A select passes on what
+    // it takes; a minimum or maximum of x and y is y where x is a NaN, and a NaN where y is.
+    bool overflowed = false;
+    if (!chooses)
+        for (const Rounded& x : in_) overflowed = overflowed || !is_bounded(x.computed);
+    else if (op_ != TapeOp::select)
+        overflowed = !is_bounded(b().computed);
 
     // What may be computed: the operation's own range, and what its error leaves.
     if (own.absolute == 0 && own.underflow == 0)
@@ -265,8 +280,9 @@ Step Rules::combine(Interval exact, Interval through, const Own& own, bool choos
         value.computed = {add_down(through.low, -off(through.low)),
                           add_up(through.high, off(through.high))};
     }
+    if (overflowed) value.computed = everything;
     if (!(size(value.computed) <= rounding_.largest)) {
-        value.jump = infinity;  // overflow
+        value.jump = infinity;
         value.computed = {value.computed.low < -rounding_.largest ? -infinity : value.computed.low,
                           value.computed.high > rounding_.largest ? infinity : value.computed.high};
     }

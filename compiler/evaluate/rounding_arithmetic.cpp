@@ -225,7 +225,7 @@ Step Rules::divide()
         // Underflow of the dividend, by a divisor that is no smaller than it is known to be.
         double least = least_size(b().exact);
         if (extra_jump_ > 0) least = std::max(least, b().underflow * 0x1p40);
-        if (least > 0)
+        if (least > 0 && b().jump == 0)
             slopes_[0].aa = common(slopes_[0].aa, around(0, outward(one_off.high / least)));
     }
     if (least_size(exact) > 0) {
@@ -414,7 +414,7 @@ Step Rules::hermite()
             around(1, 4 * a().relative));
     const double u = rounding_.unit;
     Own own{0, outward(3 * u * (1 + 2 * u)), 0, false};
-    if (rounding_.machine == Machine::vulkan) own.relative = outward(4 * u * (1 + 4 * u));
+    if (rounding_.machine == Machine::vulkan) own.relative = 5 * u;  // as acceptance.h allows
     const Interval computed = common(a().computed, unit_range);
     const double least = rounding_.flushes ? rounding_.least_normal : rounding_.least;
     if (computed.low * computed.low < rounding_.least_normal) own.underflow = 8 * least;

@@ -54,14 +54,21 @@ Step Rules::square_root()
         slopes_[0].ra = evaluate::divide(slopes_[0].aa, exact);
     // |sqrt a - sqrt b| <= sqrt |a - b|
     folded_[0] = true;
-    const double underflow = root_up(a().underflow);
+    double underflow = root_up(a().underflow);
+    double steep = infinity;
+    if (const double least = least_size(a().exact); least > 0)
+        steep = outward(a().underflow / root_down(least));
+    if (rounding_.machine == Machine::vulkan && least_size(a().computed) < rounding_.least_normal) {
+        // A device may read a denormal as nearly the least normal number.
+        underflow =
+            root_up(std::max(a().underflow, rounding_.least_normal)) * (1 + 16 * rounding_.unit);
+        steep = infinity;
+    }
     Own own = correctly(through, false);
     if (rounding_.machine == Machine::vulkan)
         own = within(through, 4.5 * rounding_.unit * (1 + 0x1p-8), infinity, true);
     if (through == Interval{0, 0} || (through == Interval{1, 1} && rounding_.nearest))
         own = exactly();
-    const double least = least_size(a().exact);
-    const double steep = least > 0 ? outward(a().underflow / root_down(least)) : infinity;
     own.underflow = outward(own.underflow + std::min(underflow, steep));
     own.absolute = outward(own.absolute + std::min(underflow, steep));
     const double apart = root_up(a().absolute);
@@ -294,7 +301,7 @@ Step Rules::power()
         const Interval bits = positive.high > 0 ? log2(positive) : Interval{-infinity, 0};
         own = powers(evaluate::multiply(b().computed, bits), through);
     }
-    if (b().computed == Interval{0, 0} || (positive == Interval{1, 1} && rounding_.nearest))
+    if (rounding_.nearest && (b().computed == Interval{0, 0} || positive == Interval{1, 1}))
         own = exactly();
     own.absolute = outward(own.absolute + by_exponent);
     own.underflow = outward(own.underflow + by_exponent);
@@ -329,7 +336,7 @@ Step Rules::wave()
                                   3 * rounding_.unit * most
                             : infinity;
         }
-        own = {outward(off + rounding_.least_normal), infinity, 0, false};
+        own = {off * (1 + 0x1p-30) + rounding_.least_normal, infinity, 0, false};
         if (least_size(through) > 0) own.relative = outward(own.absolute / least_size(through));
     }
     return combine(exact, through, own);
@@ -359,7 +366,7 @@ Step Rules::arc()
         // asin and acos: atan2 of x and sqrt(1 - x^2), whose argument two roundings move.
         if (op_ != TapeOp::arc_tangent)
             off += 2 * std::sqrt(2 * rounding_.unit) + rounding_.unit * 16;
-        own = {outward(off + rounding_.least_normal), infinity, 0, false};
+        own = {off * (1 + 0x1p-30) + rounding_.least_normal, infinity, 0, false};
         if (least_size(through) > 0) own.relative = outward(own.absolute / least_size(through));
     }
     return combine(exact, through, own);

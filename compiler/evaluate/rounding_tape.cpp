@@ -211,6 +211,8 @@ private:
             RoundingNode& node = out_.nodes[i];
             for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(node.arity); ++k)
                 for (const Fact& fact : under[i]) say(node, k, node.operands[k], fact);
+            // What is compared with has to be known by then.
+            std::erase_if(node.limits, [i](const Limit& limit) { return limit.other >= i; });
         }
     }
 

@@ -1,0 +1,309 @@
+// What is proved of everything that ships: finite, and closer to what is observed than the figures
+// demand. And that it is true: points of random boxes stay in their bounds.
+#include "analyze/proof.h"
+#include "analyze/proof_bounds.h"
+#include "analyze/proof_finite.h"
+#include "analyze/random.h"
+#include "base/render.h"
+#include "compile.h"
+#include "evaluate/bounds.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <mutex>
+
+using namespace lobe;
+using namespace lobe::analyze;
+using evaluate::Machine;
+using evaluate::Precision;
+
+namespace {
+
+std::optional<std::uint32_t> add_model(Sources& sources, std::string_view name)
+{
+    const std::string path = "models/" + std::string{name} + ".lobe";
+    std::ifstream in{"../" + path, std::ios::binary};
+    if (!in) return std::nullopt;
+    return sources.add(path, {std::istreambuf_iterator<char>{in}, {}});
+}
+
+ir::Module checked(Sources& sources, std::optional<std::uint32_t> root)
+{
+    REQUIRE(root);
+    Diagnostics diagnostics;
+    const auto module = front(
+        sources, *root,
+        [](Sources& all, std::string_view imported, std::string_view) {
+            return add_model(all, imported);
+        },
+        diagnostics);
+    INFO(render_text(sources, diagnostics));
+    REQUIRE(module);
+    return middle(*module);
+}
+
+ir::Module model(std::string_view name)
+{
+    Sources sources;
+    return checked(sources, add_model(sources, name));
+}
+
+ir::Module text(const std::string& source)
+{
+    Sources sources;
+    const std::uint32_t root = sources.add("test.lobe", source);
+    return checked(sources, root);
+}
+
+std::vector<ir::FunctionId> terms(const ir::Module& module)
+{
+    std::vector<ir::FunctionId> result;
+    for (const ir::FunctionId id : checked_functions(module))
+        if (module[id].kind != ir::Function::Kind::storage) result.push_back(id);
+    return result;
+}
+
+Proof only(const ir::Module& module, const ProofOptions& options)
+{
+    const auto all = proofs(module, options, {});
+    REQUIRE(all.size() == 1);
+    return all.front();
+}
+
+/// A random part of a box: some halves of halves.
+Box part_of(const Subject& subject, Random& random)
+{
+    Box box = subject.box;
+    for (std::uint32_t i = random.below(24); i-- > 0;) {
+        std::vector<Cut> cuts;
+        const std::size_t side = random.below(static_cast<std::uint32_t>(box.size()));
+        cuts_of(box[side], side, cuts);
+        if (cuts.empty()) continue;
+        const Cut cut = cuts[random.below(static_cast<std::uint32_t>(cuts.size()))];
+        auto [low, high] = halves(subject, box, cut);
+        box = random.coin() ? std::move(low) : std::move(high);
+    }
+    return box;
+}
+
+/// How many points of random parts were held against the bounds of these.
+std::size_t hold(const Subject& subject, std::size_t boxes, std::size_t points)
+{
+    evaluate::RoundingBounds bounds{
+        subject.steps, evaluate::rounding(Machine::kernels, subject.precision), subject.floor};
+    Random random{subject.output};
+    std::vector<Observed> values;
+    for (std::size_t i = 0; i < boxes; ++i) {
+        const Box box = part_of(subject, random);
+        const evaluate::BoxError error = bounds.error(box);
+        const auto inside = points_in(subject, box, points, random.bits());
+        evaluate_points(subject, inside, values);
+        for (std::size_t p = 0; p < values.size(); ++p) {
+            const Observed& value = values[p];
+            INFO(subject.tape.output_names[subject.output] << " at "
+                                                           << describe(subject, inside[p]));
+            INFO("computed " << value.computed << ", exact " << value.exact << ", proved ["
+                             << error.computed.low << ", " << error.computed.high << "], "
+                             << error.absolute << ", " << error.relative << ", " << error.jump);
+            if (!std::isfinite(value.computed)) {
+                REQUIRE((error.jump == evaluate::infinity || error.absolute == evaluate::infinity));
+                continue;
+            }
+            REQUIRE(error.computed.low <= value.computed);
+            REQUIRE(value.computed <= error.computed.high);
+            // The exact value is a double's: right to 2^-40 of the sizes on the way, which a bound
+            // that is not below half a unit of a float does not see.
+            const double slack = 1 + 0x1p-20;
+            const double off = error_of(subject, value, Measure::absolute);
+            REQUIRE(off <= (error.absolute + error.jump) * slack);
+            if (error.jump == 0)
+                REQUIRE(error_of(subject, value, Measure::relative) <= error.relative * slack);
+        }
+    }
+    return boxes * points;
+}
+
+const std::vector<std::string> shipped{"microfacet", "callisto", "ue4"};
+
+}  // namespace
+
+TEST_CASE("points of shipped terms never leave a proved bound, in float and in half", "[proof]")
+{
+    std::size_t held = 0;
+    for (const std::string& name : shipped) {
+        const ir::Module module = model(name);
+        for (const ir::FunctionId id : terms(module))
+            for (const Precision precision : {Precision::float32, Precision::float16})
+                for (const Subject& subject : subjects(module, module[id], precision))
+                    held += hold(subject, 48, 256);
+    }
+    // Two precisions of some sixty terms and models.
+    CHECK(held > 1'000'000);
+}
+
+TEST_CASE("every shipped function is finite in float on any device", "[proof]")
+{
+    for (const std::string& name : shipped) {
+        const ir::Module module = model(name);
+        for (const ir::FunctionId id : terms(module))
+            for (const Subject& subject : subjects(module, module[id], Precision::float32)) {
+                const Finite proof = prove_finite(subject, subject.box, 1 << 14);
+                INFO(module[id].name);
+                CHECK(proof.open.empty());
+            }
+    }
+}
+
+TEST_CASE("bounds are close to what is observed", "[proof]")
+{
+    ProofOptions options;
+    options.precisions = {Precision::float32};
+    options.boxes = 1 << 14;
+    // The whole tables take minutes; `lobec stability` prints them.
+    for (const Proof& proof : proofs(model("microfacet"), options, {})) {
+        INFO(proof.function);
+        CHECK(proof.finite);
+        CHECK(proof.ieee.ratio() < 10);
+        CHECK(proof.ieee.ratio() >= 1);
+        CHECK(proof.vulkan.absolute >= proof.ieee.observed_absolute);
+    }
+}
+
+TEST_CASE("what may overflow is open, and its boxes are tested", "[proof]")
+{
+    const ir::Module module = text("module m\nterm f(x: float in [-4, 4]) -> float =\n"
+                                   "  exp(exp(x * x))\n");
+    ProofOptions options;
+    options.precisions = {Precision::float32};
+    options.boxes = 1 << 12;
+    const Proof proof = only(module, options);
+    CHECK_FALSE(proof.finite);
+    REQUIRE(proof.open_count == proof.open.size());
+    REQUIRE(proof.open_count == 2);
+    // exp(y) overflows from y = 88.72 on, x = sqrt(ln 88.72) = 2.1178.
+    for (const NamedBox& box : proof.open) {
+        const evaluate::Interval side = box.sides.at(0).second;
+        const double edge = std::min(std::abs(side.low), std::abs(side.high));
+        CHECK(edge > 2.0);
+        CHECK(edge < 2.1179);
+        CHECK(std::max(std::abs(side.low), std::abs(side.high)) == 4);
+    }
+    CHECK(proof.open_tested > 0);
+    CHECK(proof.open_not_finite > 0);
+    CHECK(proof.open_not_finite < proof.open_tested);
+}
+
+TEST_CASE("half is proved on a part of the box, or refused with the operation", "[proof]")
+{
+    ProofOptions options;
+    options.precisions = {Precision::float16};
+    options.boxes = 1 << 12;
+
+    // 1 / x^2 is a half for x from 2^-8 on.
+    const Proof part =
+        only(text("module m\nterm f(x: float in [1/1024, 1]) -> float = 1 / x^2\n"), options);
+    CHECK(part.finite);
+    REQUIRE(part.over);
+    const evaluate::Interval side = part.over->sides.at(0).second;
+    CHECK(side.high == 1);
+    CHECK(side.low >= 0x1p-8);
+    CHECK(side.low <= 0x1p-7);
+    CHECK(part.ieee.ratio() < 10);
+
+    const Proof refused =
+        only(text("module m\nterm f(x: float in [1, 2]) -> float = x * 70000\n"), options);
+    CHECK_FALSE(refused.finite);
+    CHECK_FALSE(refused.refused.empty());
+    CHECK(refused.open_not_finite == refused.open_tested);
+}
+
+TEST_CASE("a jump is told apart from an error", "[proof]")
+{
+    ProofOptions options;
+    options.precisions = {Precision::float32};
+    options.boxes = 1 << 14;
+    const Proof proof = only(text("module m\nterm f(x: unit, y: unit) -> float =\n"
+                                  "  if x * y < 0.3 then 0 else 1\n"),
+                             options);
+    CHECK(proof.finite);
+    CHECK(proof.ieee.absolute == 0);
+    CHECK(proof.ieee.jump == Approx(1).epsilon(1e-6));
+    // Rounding turns the condition where x y is within 2^-25 of 0.3; the search gets there.
+    CHECK(proof.ieee.observed_jump == 1);
+}
+
+TEST_CASE("proofs are kept by content", "[proof]")
+{
+    const ir::Module module = text("module m\nterm f(x: unit) -> float = x * (1 - x)\n");
+    std::map<std::string, std::string> kept;
+    std::mutex mutex;
+    std::size_t saved = 0;
+    Store store;
+    store.load = [&](std::string_view key) -> std::optional<std::string> {
+        const std::lock_guard lock{mutex};
+        const auto found = kept.find(std::string{key});
+        if (found == kept.end()) return std::nullopt;
+        return found->second;
+    };
+    store.save = [&](std::string_view key, std::string_view value) {
+        const std::lock_guard lock{mutex};
+        ++saved;
+        kept[std::string{key}] = value;
+    };
+    ProofOptions options;
+    options.boxes = 1 << 10;
+    const auto first = proofs(module, options, store);
+    const auto second = proofs(module, options, store);
+    CHECK(saved == 2);  // float and half
+    REQUIRE(first.size() == second.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        CHECK(first[i].ieee.absolute == second[i].ieee.absolute);
+        CHECK(first[i].ieee.at == second[i].ieee.at);
+        CHECK(first[i].vulkan.relative == second[i].vulkan.relative);
+        CHECK(first[i].boxes == second[i].boxes);
+    }
+    // A damaged entry is proved again.
+    for (auto& [key, value] : kept) value = "{";
+    CHECK(proofs(module, options, store)[0].ieee.absolute == first[0].ieee.absolute);
+}
+
+TEST_CASE("results do not depend on the number of threads", "[proof]")
+{
+    const ir::Module module = model("microfacet");
+    ProofOptions options;
+    options.precisions = {Precision::float32};
+    options.boxes = 1 << 9;
+    options.jobs = 1;
+    const auto alone = proofs(module, options, {});
+    options.jobs = 4;
+    const auto together = proofs(module, options, {});
+    REQUIRE(alone.size() == together.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        CHECK(alone[i].function == together[i].function);
+        CHECK(alone[i].ieee.absolute == together[i].ieee.absolute);
+        CHECK(alone[i].ieee.relative == together[i].ieee.relative);
+        CHECK(alone[i].ieee.at == together[i].ieee.at);
+    }
+}
+
+TEST_CASE("the fields are proved of the vectors", "[proof]")
+{
+    ProofOptions options;
+    options.precisions = {Precision::float32};
+    options.boxes = 1 << 10;
+    const auto fields = field_proofs(model("microfacet"), options, {});
+    CHECK(fields.size() >= 8);
+    for (const Proof& field : fields) {
+        INFO(field.function);
+        CHECK(field.finite);
+        // The worst is sin2_h: three squares of components up to 2 of n x h, each off by some 14
+        // units of 2^-24 (h by four, products and differences by three, twice): 12 * 14 * 2^-24 and
+        // the roundings of the squares. Longer vectors than unit ones are in the box, too.
+        CHECK(field.ieee.absolute < 0x1p-15);
+        CHECK(field.ieee.ratio() < 100);
+    }
+}
