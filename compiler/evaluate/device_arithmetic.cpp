@@ -136,8 +136,12 @@ Acceptance Device::divide(const Acceptance& a, const Acceptance& b) const
     // A multiple of 0, or 0 rounded: no device gives anything else.
     if (promised && a.low == 0 && a.high == 0) return {0, 0, undefined};
     const double units = 2.5 + slack;
-    if (a.low >= 0 && b.low > 0)
-        return within_units({a.low / b.high, a.high / b.low}, units, units, undefined);
+    if (a.low >= 0 && b.low > 0) {
+        Acceptance result = within_units({a.low / b.high, a.high / b.low}, units, units, undefined);
+        // Read literally, an error of units of a denormal may cross 0; no device does that.
+        result.low = std::max(result.low, 0.0);
+        return result;
+    }
     return within_units(evaluate::divide(bounds(a), bounds(b)), units, units, undefined);
 }
 

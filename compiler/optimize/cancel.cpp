@@ -3,7 +3,8 @@
 //
 // Each of these is the same function over the real numbers, for every argument at which the written
 // one has a value, and removes a rounding and the place where an intermediate result leaves the
-// range of float. So no measurement has to decide: none of them can lose.
+// range of float. So no measurement has to decide: none of them can lose. A sum is multiplied out
+// only where its terms have one sign, or where the quotient is the greater hazard.
 #include "evaluate/run.h"
 #include "optimize/explain.h"
 #include "optimize/guard.h"
@@ -64,9 +65,24 @@ private:
             return moved(operand(a, 0));
         }
         if (old_[a].type != old_[b].type) return std::nullopt;
-        if (meets(a, b)) return named_times(a, b);
-        if (meets(b, a)) return named_times(b, a);
+        if (meets(a, b) && gains(a, b)) return named_times(a, b);
+        if (meets(b, a) && gains(b, a)) return named_times(b, a);
         return std::nullopt;
+    }
+
+    /// A sum that may cancel is multiplied out only where the quotient is the greater hazard: where
+    /// the divisor comes near to 0.
+    bool gains(ExprId id, ExprId x) const
+    {
+        constexpr double near_zero = 0x1p-10;
+        if (old_[id].op == Op::negate) return gains(operand(id, 0), x);
+        if (old_[id].op != Op::add && old_[id].op != Op::subtract) return true;
+        if (ranges_[x].low < near_zero && ranges_[x].high > -near_zero) return true;
+        const Interval a = ranges_[operand(id, 0)];
+        const Interval b = ranges_[operand(id, 1)];
+        const bool alike = (a.low >= 0 && b.low >= 0) || (a.high <= 0 && b.high <= 0);
+        const bool unlike = (a.low >= 0 && b.high <= 0) || (a.high <= 0 && b.low >= 0);
+        return old_[id].op == Op::add ? alike : unlike;
     }
 
     /// True for a quotient by x that nothing else uses, or a sum with one: x times it is simpler.

@@ -31,6 +31,12 @@ constexpr std::array rule_table{
          "k one_minus_cos_d (1 + cos_d)", "as one_minus_cos_d"},
     Rule{"blend_d", Source::cos_d, 0, true, "cos_d (a - 1) + 1", "a + (1 - a) one_minus_cos_d",
          "as blend_h, where light and view coincide"},
+    Rule{"one_minus_v_dot_l", Source::v_dot_l, 1, false, "k - k v_dot_l",
+         "2 k one_minus_cos_d (1 + cos_d)",
+         "v.l rounds to 1 for all directions within 2^-12 rad of each other"},
+    Rule{"one_plus_v_dot_l", Source::v_dot_l, 1, false, "k + k v_dot_l", "2 k cos_d^2",
+         "h = (l + v) / sqrt(2 + 2 v.l), as ports have it: nothing is left of 1 + v.l where light "
+         "and view are opposite"},
     Rule{"one_minus_argument", Source::argument, 1, false, "k - k x", "k one_minus_x",
          "the caller has the vectors and the callee does not"},
     Rule{"sine_squared_argument", Source::argument, 2, false, "k - k x^2", "k one_minus_x (1 + x)",
@@ -124,13 +130,26 @@ private:
             const auto field = static_cast<GeometryField>(input.which);
             if (field == GeometryField::cos_h) return Source::cos_h;
             if (field == GeometryField::cos_d) return Source::cos_d;
+            if (field == GeometryField::v_dot_l) return Source::v_dot_l;
         }
         return subject_.complemented[expr.aux] ? Source::argument : Source::factored;
+    }
+
+    /// k + k v_dot_l, which is 0 where light and view are opposite.
+    std::optional<Match> fit_mirrored(ExprId id, ExprId variable) const
+    {
+        const auto parts = split(subject_.sums[id], variable, 1);
+        if (!parts || parts->constant != parts->slope) return std::nullopt;
+        const auto rule = std::ranges::find(rule_table, "one_plus_v_dot_l", &Rule::name);
+        return Match{&*rule, variable, 1, {}, parts->slope, true};
     }
 
     std::optional<Match> fit(ExprId id, ExprId variable, int degree) const
     {
         const Source from = source(variable);
+        if (from == Source::v_dot_l && degree != 1) return std::nullopt;
+        if (from == Source::v_dot_l)
+            if (auto mirrored = fit_mirrored(id, variable)) return mirrored;
         if (from == Source::factored && degree == 1) return std::nullopt;  // 1 - x is itself
         if (from != Source::complement && degree == 3) return std::nullopt;
         if (!reaches_one(subject_.ranges[variable], degree)) return std::nullopt;

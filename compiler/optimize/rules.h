@@ -13,6 +13,7 @@
 //     x = cos_h, d = 1    one_minus_cos_h    the same over 1 + cos_h
 //     x = cos_d, d = 1    one_minus_cos_d    half angles, from the vectors
 //     x = cos_d, d = 2    one_minus_cos_d (1 + cos_d)
+//     x = v_dot_l, d = 1  2 one_minus_cos_d (1 + cos_d); and 1 + x is 2 cos_d^2
 //     x an argument       one_minus_<x>, when a caller has it (see complement.h)
 //     x = 1 - y           y (1 + x), y (1 + x + x^2): nothing is left to subtract
 //     x anything, d = 2   (1 - x)(1 + x): the subtraction is exact where it cancels, only the
@@ -37,6 +38,7 @@ namespace lobe::optimize {
 enum class Source : std::uint8_t {
     cos_h,
     cos_d,
+    v_dot_l,  ///< at both ends of [-1, 1]
     argument,
     complement,  ///< x is written 1 - y
     factored
@@ -63,13 +65,14 @@ struct Rule {
 std::span<const Rule> rules();
 
 /// A rule that fits an expression of a function, and the parts to build the replacement from:
-/// rest + slope * (1 - variable^degree).
+/// rest + slope * (1 - variable^degree), or (1 + variable) where it is `mirrored`.
 struct Match {
     const Rule* rule = nullptr;
     ir::ExprId variable;
     int degree = 0;
     Sum rest;
     Sum slope;
+    bool mirrored = false;
 };
 
 /// Everything known about a function before its rules are looked for.

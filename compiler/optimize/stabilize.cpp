@@ -73,6 +73,13 @@ private:
             const ExprId field = rebuild_.input(GeometryField::one_minus_cos_d);
             return match.degree == 2 ? squared(field) : field;
         }
+        case Source::v_dot_l: {
+            const ExprId cos = rebuild_.input(GeometryField::cos_d);
+            const ExprId two = graph().literal("2");
+            if (match.mirrored) return apply(Op::multiply, two, apply(Op::multiply, cos, cos));
+            const ExprId field = rebuild_.input(GeometryField::one_minus_cos_d);
+            return apply(Op::multiply, two, apply(Op::multiply, field, apply(Op::add, one, cos)));
+        }
         case Source::argument: {
             const std::uint32_t index = rebuild_.old().graph[match.variable].aux;
             const ExprId argument = rebuild_.complement_input(index);

@@ -40,6 +40,29 @@ TEST_CASE("build writes every target, the same bytes each time, and touches noth
     CHECK(scratch.run("lobec build small.lobe -o other && diff -r out other").status == 0);
 }
 
+TEST_CASE("build --explain says what was done where, why, and what it gained")
+{
+    const Scratch scratch;
+    scratch.write("small.lobe", "module small\n\n/// GGX.\n"
+                                "term d(alpha: float in [1/4096, 1], g: geometry) -> float =\n"
+                                "  alpha^2 / (pi * (g.cos_h^2 * (alpha^2 - 1) + 1)^2)\n\n"
+                                "/// A power.\nterm p(x: unit, y: unit) -> float = x^y\n\n"
+                                "/// Another.\nterm q(x: unit, y: unit) -> float = (1 + x)^y\n");
+    const Outcome told = scratch.run("lobec --quiet build small.lobe -o out --explain");
+    CAPTURE(told.out, told.err);
+    REQUIRE(told.status == 0);
+    for (const char* line :
+         {"small.lobe\n  d: float error ",
+          "    small.lobe:5: `g.cos_h^2 * (alpha^2 - 1) + 1`\n"
+          "      rewrite blend_h: cos_h^2 (a - 1) + 1 -> ",
+          "    small.lobe:8: `x^y`\n      guard guarded_power: x^y -> max(x, 2^-126)^y; ",
+          "    small.lobe:11: `(1 + x)^y`\n      needless guard power_without_guard: "})
+        CHECK_THAT(told.out, Contains(line));
+    CHECK_THAT(told.out, !Contains("unchanged"));
+    CHECK_THAT(scratch.run("lobec build small.lobe -o out --explain").out, Contains("unchanged"));
+    CHECK_THAT(scratch.run("lobec build small.lobe -o out").out, !Contains("rewrite"));
+}
+
 TEST_CASE("build --check finds stale, missing and orphaned files")
 {
     const Scratch scratch;

@@ -22,6 +22,7 @@ struct Site {
     Term t{"term"};
     ExprId cos_h = t.field(GeometryField::cos_h);
     ExprId cos_d = t.field(GeometryField::cos_d);
+    ExprId v_dot_l = t.field(GeometryField::v_dot_l);
     ExprId a = t.argument("a", 0.001, 1);
     ExprId x = t.argument("x", 0, 1);
     ExprId one = t.number("1");
@@ -105,6 +106,12 @@ const std::vector<Example> examples{
      [](Site& s) { return s.t.subtract(s.one, s.square(s.cos_d)); }},
     {"cos_d^2 (a - 1) + 1", "blend_d", [](Site& s) { return blend(s, s.cos_d, 2); }},
     {"cos_d (a - 1) + 1", "blend_d", [](Site& s) { return blend(s, s.cos_d, 1); }},
+    {"1 - v_dot_l", "one_minus_v_dot_l", [](Site& s) { return s.t.subtract(s.one, s.v_dot_l); }},
+    {"2 + 2 v_dot_l", "one_plus_v_dot_l",
+     [](Site& s) {
+         const ExprId two = s.t.number("2");
+         return s.t.add(two, s.t.multiply(two, s.v_dot_l));
+     }},
     {"1 - x^2", "difference_of_squares",
      [](Site& s) { return s.t.subtract(s.one, s.square(s.x)); }},
     {"x^2 (a - 1) + 1", "blend_of_squares", [](Site& s) { return blend(s, s.x, 2); }},

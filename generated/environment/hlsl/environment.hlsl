@@ -68,7 +68,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
     const float one_minus_NoV = 1.0 - NoV;
     const float t0 = 1.0 + NoV;
     const float sin_o = sqrt(one_minus_NoV * t0);
-    const float y_first = substituted_slope(-sqrt(max(one_minus_NoV / t0, 0.0)), alpha);
+    const float y_first = substituted_slope(-sqrt(one_minus_NoV / t0), alpha);
     const float y_last = substituted_slope(NoV / (1.0 + sin_o), alpha);
     const float y = lerp(y_first, y_last, 0.40828267);
     const float y2 = y * y;
@@ -90,7 +90,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
     const float alpha2 = alpha * alpha;
     const float peak = slope2 + alpha2;
     const float far = max(sin_half * sin_half / facing + alpha2 * e, alpha2);
-    const float spread = sqrt(max(e / (peak * far), 0.0));
+    const float spread = sqrt(e / (peak * far));
     const float kappa = peak * spread;
     const float one_minus_alpha2 = 1.0 - alpha2;
     const float beta = one_minus_alpha2 * spread;
@@ -148,7 +148,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
     const float e_2 = cos_half_2 * cos_half_2 / facing_2;
     const float peak_2 = slope_2_p2 + alpha2;
     const float far_2 = max(sin_half_2 * sin_half_2 / facing_2 + alpha2 * e_2, alpha2);
-    const float spread_2 = sqrt(max(e_2 / (peak_2 * far_2), 0.0));
+    const float spread_2 = sqrt(e_2 / (peak_2 * far_2));
     const float kappa_2 = peak_2 * spread_2;
     const float beta_2 = one_minus_alpha2 * spread_2;
     const float j_2 = 1.0 + beta_2 * (2.0 + t2 * (e_2 / far_2 + 1.0 / peak_2));
@@ -201,7 +201,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
     const float e_3 = cos_half_3 * cos_half_3 / facing_3;
     const float peak_3 = slope_3_p2 + alpha2;
     const float far_3 = max(sin_half_3 * sin_half_3 / facing_3 + alpha2 * e_3, alpha2);
-    const float spread_3 = sqrt(max(e_3 / (peak_3 * far_3), 0.0));
+    const float spread_3 = sqrt(e_3 / (peak_3 * far_3));
     const float kappa_3 = peak_3 * spread_3;
     const float beta_3 = one_minus_alpha2 * spread_3;
     const float j_3 = 1.0 + beta_3 * (2.0 + t2 * (e_3 / far_3 + 1.0 / peak_3));
@@ -253,7 +253,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
     const float e_4 = cos_half_4 * cos_half_4 / facing_4;
     const float peak_4 = slope_4_p2 + alpha2;
     const float far_4 = max(sin_half_4 * sin_half_4 / facing_4 + alpha2 * e_4, alpha2);
-    const float spread_4 = sqrt(max(e_4 / (peak_4 * far_4), 0.0));
+    const float spread_4 = sqrt(e_4 / (peak_4 * far_4));
     const float kappa_4 = peak_4 * spread_4;
     const float beta_4 = one_minus_alpha2 * spread_4;
     const float j_4 = 1.0 + beta_4 * (2.0 + t2 * (e_4 / far_4 + 1.0 / peak_4));
@@ -306,7 +306,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
     const float e_5 = cos_half_5 * cos_half_5 / facing_5;
     const float peak_5 = slope_5_p2 + alpha2;
     const float far_5 = max(sin_half_5 * sin_half_5 / facing_5 + alpha2 * e_5, alpha2);
-    const float spread_5 = sqrt(max(e_5 / (peak_5 * far_5), 0.0));
+    const float spread_5 = sqrt(e_5 / (peak_5 * far_5));
     const float kappa_5 = peak_5 * spread_5;
     const float beta_5 = one_minus_alpha2 * spread_5;
     const float j_5 = 1.0 + beta_5 * (2.0 + t2 * (e_5 / far_5 + 1.0 / peak_5));
@@ -358,7 +358,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
     const float e_6 = cos_half_6 * cos_half_6 / facing_6;
     const float peak_6 = slope_6_p2 + alpha2;
     const float far_6 = max(sin_half_6 * sin_half_6 / facing_6 + alpha2 * e_6, alpha2);
-    const float spread_6 = sqrt(max(e_6 / (peak_6 * far_6), 0.0));
+    const float spread_6 = sqrt(e_6 / (peak_6 * far_6));
     const float kappa_6 = peak_6 * spread_6;
     const float beta_6 = one_minus_alpha2 * spread_6;
     const float j_6 = 1.0 + beta_6 * (2.0 + t2 * (e_6 / far_6 + 1.0 / peak_6));
@@ -411,7 +411,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
     const float e_7 = cos_half_7 * cos_half_7 / facing_7;
     const float peak_7 = slope_7_p2 + alpha2;
     const float far_7 = max(sin_half_7 * sin_half_7 / facing_7 + alpha2 * e_7, alpha2);
-    const float spread_7 = sqrt(max(e_7 / (peak_7 * far_7), 0.0));
+    const float spread_7 = sqrt(e_7 / (peak_7 * far_7));
     const float kappa_7 = peak_7 * spread_7;
     const float beta_7 = one_minus_alpha2 * spread_7;
     const float j_7 = 1.0 + beta_7 * (2.0 + t2 * (e_7 / far_7 + 1.0 / peak_7));
@@ -463,7 +463,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
     const float e_8 = cos_half_8 * cos_half_8 / facing_8;
     const float peak_8 = slope_8_p2 + alpha2;
     const float far_8 = max(sin_half_8 * sin_half_8 / facing_8 + alpha2 * e_8, alpha2);
-    const float spread_8 = sqrt(max(e_8 / (peak_8 * far_8), 0.0));
+    const float spread_8 = sqrt(e_8 / (peak_8 * far_8));
     const float kappa_8 = peak_8 * spread_8;
     const float beta_8 = one_minus_alpha2 * spread_8;
     const float j_8 = 1.0 + beta_8 * (2.0 + t2 * (e_8 / far_8 + 1.0 / peak_8));

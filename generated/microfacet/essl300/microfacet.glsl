@@ -489,11 +489,11 @@ float F_dielectric(float f0, float VoH)
     float c = contrast * VoH;
     float t0 = 4.0 * s;
     float sum = sqrt(t0 + c * c) + c;
-    bool t1 = abs(sum) >= 5.421011e-20;
+    bool t1 = sum >= 5.421011e-20;
     float difference = t1 ? t0 / sum : 0.0;
     float amplitude = t1 ? difference / sum : 0.0;
     float t2 = difference * VoH + contrast;
-    float polarization = abs(t2) >= 5.421011e-20 ? (sum * VoH - contrast) / t2 : 1.0;
+    float polarization = t2 >= 5.421011e-20 ? (sum * VoH - contrast) / t2 : 1.0;
     return 0.5 * (amplitude * amplitude) * (1.0 + polarization * polarization);
 }
 

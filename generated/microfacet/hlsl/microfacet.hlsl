@@ -487,11 +487,11 @@ float F_dielectric(float f0, float VoH)
     const float c = contrast * VoH;
     const float t0 = 4.0 * s;
     const float sum = sqrt(t0 + c * c) + c;
-    const bool t1 = abs(sum) >= 5.421011e-20;
+    const bool t1 = sum >= 5.421011e-20;
     const float difference = t1 ? t0 / sum : 0.0;
     const float amplitude = t1 ? difference / sum : 0.0;
     const float t2 = difference * VoH + contrast;
-    const float polarization = abs(t2) >= 5.421011e-20 ? (sum * VoH - contrast) / t2 : 1.0;
+    const float polarization = t2 >= 5.421011e-20 ? (sum * VoH - contrast) / t2 : 1.0;
     return 0.5 * (amplitude * amplitude) * (1.0 + polarization * polarization);
 }
 
