@@ -261,8 +261,8 @@ Components Scalarizer::each(const Frame& frame, ExprId id)
             LOBE_SAME_3(smoothstep)
         case Op::guarded_smoothstep: {
             // Of edges 0 and b - a: the same operations on the way, and the width is kept above 0.
-            const Value width = emit(TapeOp::subtract, operand(1), operand(0));
-            result.push_back(emit(TapeOp::smoothstep, number(0), at_least(width, least_divisor()),
+            const Value ramp = emit(TapeOp::subtract, operand(1), operand(0));
+            result.push_back(emit(TapeOp::smoothstep, number(0), at_least(ramp, least_divisor()),
                                   emit(TapeOp::subtract, operand(2), operand(0))));
             break;
         }
