@@ -197,8 +197,10 @@ private:
             return copy();
         }
         if (divisor.low > 0 || divisor.high < 0) return copy();
-        note("held_divisor");
         const Interval& exact = known_.reals[old_.operands(id_)[1]];
+        // Of either sign: the author's own condition keeps it from 0, and holding would change it.
+        if (exact.low < 0 && exact.high > 0) return copy();
+        note("held_divisor");
         const bool negative = exact.high <= 0 && exact.low < 0;
         const ExprId least =
             graph().literal(negative ? -smallest_normal_float : smallest_normal_float);
