@@ -119,8 +119,10 @@ public:
         std::error_code error;
         fs::create_directories(place.parent_path(), error);
         if (error) return;
+        // One count for all caches of this process: two of them may share a folder.
+        static std::atomic<unsigned> writes{0};
         const fs::path temporary =
-            place.string() + fmt::format(".{}.{}.partial", getpid(), ++writes_);
+            place.string() + fmt::format(".{}.{}.partial", getpid(), ++writes);
         if (!write(temporary, text)) return;
         fs::rename(temporary, place, error);
         if (error) fs::remove(temporary, error);
@@ -185,7 +187,6 @@ private:
     std::string stamp_;
     std::uintmax_t limit_;
     std::atomic<std::uintmax_t> written_{0};
-    std::atomic<unsigned> writes_{0};
 };
 
 }  // namespace
