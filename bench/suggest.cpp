@@ -1,7 +1,7 @@
 // What the search for a packing claims: how long it takes for the eight scalars of Callisto's base
 // and advanced tiers in the four free channels, and how much better the result is than 8 linear
 // bits for each of them.
-#include "analyze/suggest.h"
+#include "analyze/packing/suggest.h"
 
 #include "compile.h"
 

@@ -1,9 +1,9 @@
 #include "analyze/pareto.h"
 
-#include "analyze/minimax.h"
-#include "analyze/radiance.h"
-#include "analyze/trade.h"
-#include "analyze/trade_text.h"
+#include "analyze/minimax/minimax.h"
+#include "analyze/packing/radiance.h"
+#include "analyze/trade/text.h"
+#include "analyze/trade/trade.h"
 #include "optimize/optimize.h"
 
 #include <fmt/format.h>

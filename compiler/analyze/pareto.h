@@ -7,8 +7,8 @@
 // one of the two. For a model the error is end to end, on radiance.
 #pragma once
 
-#include "analyze/cost.h"
-#include "analyze/deviation.h"
+#include "analyze/cost/cost.h"
+#include "analyze/trade/deviation.h"
 #include "optimize/forms.h"
 #include "optimize/spelling.h"
 

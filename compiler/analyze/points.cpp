@@ -1,8 +1,8 @@
 #include "analyze/points.h"
 
-#include "analyze/borders.h"
 #include "analyze/directions.h"
 #include "analyze/grid.h"
+#include "analyze/packing/borders.h"
 #include "analyze/random.h"
 #include "analyze/scalar.h"
 #include "evaluate/tape.h"

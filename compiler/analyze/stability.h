@@ -2,10 +2,10 @@
 // corner suite, and what it owes to physics.
 #pragma once
 
-#include "analyze/corners.h"
-#include "analyze/hazards.h"
-#include "analyze/physics.h"
-#include "analyze/proof.h"
+#include "analyze/corners/corners.h"
+#include "analyze/hazards/hazards.h"
+#include "analyze/physics/physics.h"
+#include "analyze/proof/proof.h"
 
 namespace lobe::analyze {
 

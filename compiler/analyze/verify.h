@@ -4,9 +4,9 @@
 // is where their statements are held together.
 #pragma once
 
-#include "analyze/agreement.h"
-#include "analyze/judgement.h"
-#include "analyze/round_trip.h"
+#include "analyze/agreement/agreement.h"
+#include "analyze/agreement/judgement.h"
+#include "analyze/packing/round_trip.h"
 #include "base/diagnostic.h"
 #include "emit/emit.h"
 #include "ir/module.h"

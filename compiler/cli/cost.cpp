@@ -1,5 +1,5 @@
 // `lobec cost`: what terms and models cost, and whether that is more than it was.
-#include "analyze/cost.h"
+#include "analyze/cost/cost.h"
 
 #include "cli/cache.h"
 #include "cli/commands.h"

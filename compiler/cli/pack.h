@@ -2,7 +2,7 @@
 // is unknown and what there is.
 #pragma once
 
-#include "analyze/suggest.h"
+#include "analyze/packing/suggest.h"
 #include "cli/program.h"
 #include "report/packing.h"
 

@@ -1,6 +1,6 @@
 #include "cli/program.h"
 
-#include "analyze/radiance.h"
+#include "analyze/packing/radiance.h"
 #include "cli/files.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // What options say in words: shares, numbers, values of parameters, GPU families.
 #pragma once
 
-#include "analyze/cost.h"
+#include "analyze/cost/cost.h"
 #include "cli/program.h"
 
 #include <optional>

@@ -1,6 +1,6 @@
 #include "cli/told.h"
 
-#include "analyze/gain.h"
+#include "analyze/agreement/gain.h"
 #include "optimize/explain.h"
 #include "optimize/spelling.h"
 

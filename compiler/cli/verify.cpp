@@ -2,7 +2,7 @@
 // with --mutants, whether that check can fail at all.
 #include "analyze/verify.h"
 
-#include "analyze/kill.h"
+#include "analyze/agreement/kill.h"
 #include "cli/commands.h"
 #include "cli/files.h"
 #include "cli/program.h"

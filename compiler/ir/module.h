@@ -101,7 +101,7 @@ struct Module {
     std::vector<Packing> packings;     ///< its own
     std::vector<Engine> engines;       ///< its own
     std::vector<std::string> remarks;  ///< how it is compiled, for the banner of what is emitted
-    bool bare_geometry = false;  ///< entry points compute fields unguarded (see Frame::bare)
+    bool bare_geometry = false;        ///< entry points compute fields unguarded (see Frame::bare)
 
     const Function& operator[](FunctionId id) const { return functions[id.index]; }
     std::optional<FunctionId> find(std::string_view function_name) const;

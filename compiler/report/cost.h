@@ -3,7 +3,7 @@
 // All read the same rows and measure nothing of their own.
 #pragma once
 
-#include "analyze/cost.h"
+#include "analyze/cost/cost.h"
 #include "report/table.h"
 
 #include <optional>

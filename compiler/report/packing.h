@@ -5,9 +5,9 @@
 // bytes.
 #pragma once
 
-#include "analyze/codes.h"
-#include "analyze/radiance.h"
-#include "analyze/suggest.h"
+#include "analyze/packing/codes.h"
+#include "analyze/packing/radiance.h"
+#include "analyze/packing/suggest.h"
 #include "ir/module.h"
 #include "report/table.h"
 

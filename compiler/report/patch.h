@@ -1,7 +1,7 @@
 // What `lobec patch` found and did, in words and as JSON.
 #pragma once
 
-#include "analyze/engine_shaders.h"
+#include "analyze/agreement/engine_shaders.h"
 #include "engine/patch.h"
 #include "report/table.h"
 

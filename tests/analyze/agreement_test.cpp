@@ -1,5 +1,5 @@
 // The comparison passes what the contract allows and nothing else.
-#include "analyze/agreement.h"
+#include "analyze/agreement/agreement.h"
 #include "analyze/models.h"
 
 #include <catch2/catch.hpp>

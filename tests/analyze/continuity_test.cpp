@@ -1,5 +1,5 @@
 // What jumps: limits of functions that are known by hand, and those that the models really have.
-#include "analyze/continuity.h"
+#include "analyze/corners/continuity.h"
 #include "analyze/emitted.h"
 #include "analyze/entry_inputs.h"
 #include "analyze/models.h"

@@ -1,6 +1,6 @@
 // The corner suite: that it goes where it says, that it sees what is not finite, and that nothing
 // that ships is.
-#include "analyze/corners.h"
+#include "analyze/corners/corners.h"
 #include "analyze/emitted.h"
 #include "analyze/models.h"
 

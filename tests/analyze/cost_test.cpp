@@ -1,9 +1,9 @@
 // What functions cost, where it can be counted by hand: every expected number below is the count of
 // operations that the formula needs.
-#include "analyze/cost.h"
-#include "analyze/cost_shaders.h"
+#include "analyze/cost/cost.h"
+#include "analyze/cost/shaders.h"
+#include "analyze/cost/spirv_count.h"
 #include "analyze/models.h"
-#include "analyze/spirv_count.h"
 #include "verify/judge.h"
 
 #include <catch2/catch.hpp>

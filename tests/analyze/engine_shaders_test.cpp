@@ -1,6 +1,6 @@
 // A patched tree's shaders compile, or it is said which do not; a tree that never did is told
 // apart.
-#include "analyze/engine_shaders.h"
+#include "analyze/agreement/engine_shaders.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // The nearest polynomials and ratios against what theory says of them: known errors, and the
 // alternation of signs that no better fit could have.
-#include "analyze/fit.h"
-#include "analyze/minimax_form.h"
+#include "analyze/minimax/fit.h"
+#include "analyze/minimax/form.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,8 +2,8 @@
 // is found with a witness, and as the compiler spells it (or another formula, where no spelling of
 // the same one can help), where it is gone. data/stability has them one by one; its README says
 // where they come from.
-#include "analyze/hazards.h"
-#include "analyze/hazards_search.h"
+#include "analyze/hazards/hazards.h"
+#include "analyze/hazards/search.h"
 #include "analyze/stability_cases.h"
 #include "optimize/spelling.h"
 

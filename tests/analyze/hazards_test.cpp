@@ -1,5 +1,5 @@
 // Hazards of small functions whose faults are known, and what is said about them.
-#include "analyze/hazards.h"
+#include "analyze/hazards/hazards.h"
 #include "analyze/stability_cases.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // Forms that the compiler finds: they are what they say, they can be pasted, and what has none is
 // left alone.
-#include "analyze/minimax.h"
+#include "analyze/minimax/minimax.h"
 #include "base/render.h"
 #include "compile.h"
 #include "evaluate/run.h"

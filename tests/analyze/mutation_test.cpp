@@ -1,8 +1,8 @@
 // Mutants are the text that was asked for, changed in one place and nowhere else.
+#include "analyze/agreement/mutation.h"
+#include "analyze/agreement/symmetry.h"
+#include "analyze/agreement/tokens.h"
 #include "analyze/models.h"
-#include "analyze/mutation.h"
-#include "analyze/symmetry.h"
-#include "analyze/tokens.h"
 
 #include <catch2/catch.hpp>
 

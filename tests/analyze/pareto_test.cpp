@@ -1,6 +1,6 @@
 // Errors are what calculus and the number formats say they are, nothing on a frontier is missed,
 // and what dominates what is told truly.
-#include "analyze/trade.h"
+#include "analyze/trade/trade.h"
 #include "base/render.h"
 #include "compile.h"
 

@@ -3,9 +3,9 @@
 // Tolerances are what the quadrature says of itself, what the Vulkan contract lets a device round
 // at the nodes, and half of the last digit that a known figure is printed with.
 #include "analyze/emitted.h"
-#include "analyze/hemisphere.h"
-#include "analyze/physics.h"
-#include "analyze/quadrature.h"
+#include "analyze/physics/hemisphere.h"
+#include "analyze/physics/physics.h"
+#include "analyze/physics/quadrature.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // Callisto as a port types it from the slides, against Callisto as the compiler emits it: the same
 // model, in stability.
-#include "analyze/corners.h"
-#include "analyze/hazards_search.h"
-#include "analyze/judgement.h"
+#include "analyze/agreement/judgement.h"
+#include "analyze/corners/corners.h"
+#include "analyze/hazards/search.h"
 #include "analyze/stability_cases.h"
 #include "emit/emit.h"
 

@@ -1,8 +1,8 @@
 // What is proved of everything that ships: finite, and closer to what is observed than the figures
 // demand. And that it is true: points of random boxes stay in their bounds.
-#include "analyze/proof.h"
-#include "analyze/proof_bounds.h"
-#include "analyze/proof_finite.h"
+#include "analyze/proof/bounds.h"
+#include "analyze/proof/finite.h"
+#include "analyze/proof/proof.h"
 #include "analyze/random.h"
 #include "base/render.h"
 #include "compile.h"

@@ -1,6 +1,6 @@
 // The error of radiance is found where it can be computed by hand, and does not depend on threads.
-#include "analyze/radiance.h"
-#include "analyze/radiance_search.h"
+#include "analyze/packing/radiance.h"
+#include "analyze/packing/radiance_search.h"
 #include "analyze/toy.h"
 #include "base/render.h"
 

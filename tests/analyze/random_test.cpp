@@ -2,8 +2,8 @@
 // after it, every kind of number, both front ends, the optimizer and the device. All must agree,
 // and no tolerance is chosen: sets that are said to hold one and the same real number must meet,
 // and what was computed must lie in what was allowed.
-#include "analyze/agreement.h"
-#include "analyze/judgement.h"
+#include "analyze/agreement/agreement.h"
+#include "analyze/agreement/judgement.h"
 #include "evaluate/random_graph.h"
 #include "optimize/optimize.h"
 

@@ -1,7 +1,7 @@
 // Every code of every channel comes back: counted out in whole numbers, computed on the CPU, run on
 // the device as emitted, promised by the contract.
-#include "analyze/kill.h"
-#include "analyze/round_trip.h"
+#include "analyze/agreement/kill.h"
+#include "analyze/packing/round_trip.h"
 #include "analyze/table.h"
 #include "analyze/verify.h"
 #include "emit/packings.h"

@@ -1,6 +1,6 @@
 #include "analyze/stability_cases.h"
 
-#include "analyze/hazards_search.h"
+#include "analyze/hazards/search.h"
 #include "base/render.h"
 #include "compile.h"
 

@@ -1,10 +1,10 @@
 // The search for a packing: shares and layouts against all there are, and what it suggests for
 // models whose errors are known.
-#include "analyze/curves.h"
-#include "analyze/layout.h"
+#include "analyze/packing/curves.h"
+#include "analyze/packing/layout.h"
+#include "analyze/packing/shares.h"
+#include "analyze/packing/suggest.h"
 #include "analyze/random.h"
-#include "analyze/shares.h"
-#include "analyze/suggest.h"
 #include "analyze/toy.h"
 #include "evaluate/run.h"
 #include "evaluate/tape.h"

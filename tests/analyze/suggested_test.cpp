@@ -1,6 +1,6 @@
 // What is suggested for a model that ships compiles in place of the packing that it has, says the
 // same when it is formatted, and keeps what has to stay exact.
-#include "analyze/suggest.h"
+#include "analyze/packing/suggest.h"
 #include "base/render.h"
 #include "compile.h"
 #include "evaluate/run.h"

@@ -1,5 +1,5 @@
 // Every witness at once: text, judges, device and evaluator on functions built by hand.
-#include "analyze/kill.h"
+#include "analyze/agreement/kill.h"
 #include "analyze/models.h"
 #include "analyze/verify.h"
 

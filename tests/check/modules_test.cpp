@@ -29,7 +29,8 @@ term unused(x: unit) -> unit = x * other
 
 }  // namespace
 
-TEST_CASE("an imported term brings along what it uses, with its forms, and no more", "[check][modules]")
+TEST_CASE("an imported term brings along what it uses, with its forms, and no more",
+          "[check][modules]")
 {
     const auto checked = check_text(R"(
 import lib { scaled }

@@ -1,5 +1,5 @@
 // The language reference says only what compiles.
-#include "analyze/radiance.h"
+#include "analyze/packing/radiance.h"
 #include "base/render.h"
 #include "check/check.h"
 #include "compile.h"

@@ -1,7 +1,7 @@
 // The BxDF that a file for Unreal holds, run as it stands under a point light: it must compute the
 // model's outputs from the engine's geometry.
-#include "analyze/agreement.h"
-#include "analyze/judgement.h"
+#include "analyze/agreement/agreement.h"
+#include "analyze/agreement/judgement.h"
 #include "emit/packings.h"
 #include "emit/shipped.h"
 

@@ -1,5 +1,5 @@
 // The patched shaders compile: every one that the patch touches, with our stand-ins for the rest.
-#include "analyze/engine_shaders.h"
+#include "analyze/agreement/engine_shaders.h"
 #include "emit/template.h"
 #include "engine/models.h"
 #include "engine/stand_ins.h"

@@ -1,0 +1,66 @@
+// A bound of a subject's error over its whole box: the box divided where the bound is worst, until
+// it is close to what was observed or the budget is spent.
+#pragma once
+
+#include "analyze/proof/search.h"
+#include "evaluate/rounding_bounds.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace lobe::analyze {
+
+/// One way to cut a box in two.
+struct Cut {
+    std::size_t side = 0;
+    double at = 0;
+};
+/// Where it makes sense to cut a side: in the middle, by binades toward 0, and toward 1.
+void cuts_of(const evaluate::Interval& side, std::size_t index, std::vector<Cut>& cuts);
+/// Both halves; their ends are numbers of the grid, and every such number is in one of them.
+std::pair<Box, Box> halves(const Subject& subject, const Box& box, const Cut& cut);
+
+/// The boxes of one subject, machine and measure. `worst` is where the search for bad points goes
+/// on: in the boxes whose bounds are worst.
+class Division {
+public:
+    Division(const Subject& subject, evaluate::Machine machine, Measure measure, Worst& worst);
+
+    /// Divides until the bound is at most `target` times what was observed, or `budget` bounds
+    /// were computed.
+    void refine(std::size_t budget, double target);
+
+    /// Over all boxes; infinite: none was found.
+    double bound() const { return leaves_.front().bound; }
+    double ratio() const;
+    std::size_t boxes() const { return leaves_.size(); }
+
+private:
+    struct Leaf {
+        double bound = 0;
+        double doubt = 0;
+        Box box;
+        std::uint32_t depth = 0;
+    };
+
+    Leaf leaf(Box box, std::uint32_t depth);
+    double doubt() const;
+    double bound_of(const Box& box);
+    std::optional<std::size_t> loosest(const Leaf& parent, bool at_worst);
+    bool divide_worst();
+    void search();
+
+    const Subject& subject_;
+    Measure measure_;
+    Worst& worst_;
+    evaluate::RoundingBounds bounds_;
+    std::vector<Leaf> leaves_;  ///< a heap, worst first
+    std::size_t spent_ = 0;
+    std::size_t next_search_ = 64;
+};
+
+/// Finds bad points of the whole box, before any division.
+void explore(const Subject& subject, const std::vector<Worst*>& worst);
+
+}  // namespace lobe::analyze
