@@ -6,7 +6,7 @@
 # the pipeline and may include everything.
 cmake_minimum_required(VERSION 3.25)
 
-set(stages base syntax ir evaluate check optimize emit verify device analyze engine report cli)
+set(stages base syntax ir evaluate check optimize emit verify device scene analyze render engine report cli)
 set(may_syntax base)
 set(may_ir base)
 set(may_evaluate base ir)
@@ -15,13 +15,15 @@ set(may_optimize base ir evaluate)
 set(may_emit base ir lobe)
 set(may_verify base)
 set(may_device base)
-set(may_analyze base ir evaluate optimize emit verify device)
+set(may_scene base)
+set(may_analyze base ir evaluate optimize emit verify device scene)
+set(may_render base ir evaluate optimize scene analyze)
 set(may_engine base emit)
-set(may_report base ir analyze emit engine)
-set(may_cli base syntax ir check evaluate optimize emit verify device analyze engine report compile.h lobe)
+set(may_report base ir analyze emit engine scene)
+set(may_cli base syntax ir check evaluate optimize emit verify device scene analyze render engine report compile.h lobe)
 
 # No files, clock, environment or locale: equal inputs give equal bytes.
-set(hermetic base syntax ir evaluate check optimize emit engine)
+set(hermetic base syntax ir evaluate check optimize emit engine scene)
 set(outside chrono clocale ctime filesystem fstream iostream locale)
 
 set(broken 0)

@@ -1,0 +1,67 @@
+// What a residual shader owes to the general one: that on everything the scene can show they are
+// the same, and how far apart where an effect was dropped on purpose.
+#pragma once
+
+#include "analyze/residual/facts.h"
+#include "analyze/store.h"
+#include "analyze/verify.h"
+#include "ir/module.h"
+#include "optimize/residual.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lobe::analyze {
+
+/// An effect that is called for, and was left out because it changes little: on the scene's box,
+/// radiance with and without differ by at most `bound`, measured as packings are
+/// (packing/radiance.h): relative, or to an 18 % grey card where darker.
+struct Dropped {
+    std::string effect;
+    double bound = 0;     ///< proved
+    double observed = 0;  ///< the most that a search found
+};
+
+/// One output of the model.
+struct Equality {
+    std::string output;
+    bool same_graph = false;  ///< proved: after `optimize` both are one graph, input for input
+    std::size_t points = 0;   ///< of the scene's box, a quarter of them hostile
+    std::size_t outside = 0;  ///< where the residual's exact value is none that the general one's
+                              ///< acceptance interval allows
+    double worst = 0;         ///< the largest difference in shares of that interval's half width
+    std::string device;       ///< that the emitted residual ran on; empty: none did
+    std::size_t device_outside = 0;  ///< device results outside of the general one's interval
+    bool ok() const { return outside == 0 && device_outside == 0; }
+};
+
+struct Certificate {
+    std::string model;
+    std::vector<Equality> outputs;  ///< residual against general, both without what was dropped
+    std::vector<Dropped> dropped;
+    double seconds = 0;
+    bool ok() const;
+};
+
+struct CertificateOptions {
+    std::size_t points = 16384;  ///< per output
+    double epsilon = 0;          ///< 0: drop nothing
+    bool execute = true;
+    std::string device;
+    unsigned jobs = 0;
+};
+
+/// Effects of `called` materials that may go for an epsilon, with their proved bounds; together
+/// they stay below it. The scene's box is `called`'s.
+std::vector<Dropped> droppable(const ir::Module& module, const std::string& model,
+                               const optimize::Called& called, double epsilon,
+                               const CertificateOptions& options);
+
+/// `general` is the checked module; the residual was made of it by `called`.
+Certificate certify(const ir::Module& general, const Sources& sources, const std::string& model,
+                    const optimize::Called& called, const optimize::Residual& residual,
+                    const std::vector<Dropped>& dropped, const CertificateOptions& options,
+                    const Store& store);
+
+}  // namespace lobe::analyze
