@@ -76,40 +76,39 @@ struct Value {
 /// A material over another one.
 struct Layer {
     std::size_t material = 0;
-    Value weight{};
-    struct Material {
-        std::string name;
-        Pointer pointer;
-        Value base_color{};  ///< 4 components; the fourth is alpha
-        Value metallic{};
-        Value roughness{};
-        Value emissive{};  ///< with KHR_materials_emissive_strength multiplied in
-        std::optional<Texture> normal_map;
-        double normal_scale = 1;
-        std::optional<Texture> occlusion_map;
-        bool double_sided = false;
-        bool is_unlit = false;
-        enum class Alpha : std::uint8_t {
-            opaque,
-            mask,
-            blend
-        };
-        Alpha alpha = Alpha::opaque;
-        double alpha_cutoff = 0.5;
-        /// What the ratified KHR_materials_* give, under the extension's own property names in
-        /// snake case with the extension's name before those that need it: `ior`, `specular`,
-        /// `specular_color`, `clearcoat`, `clearcoat_roughness`, `sheen_color`, `sheen_roughness`,
-        /// `transmission`, `thickness`, `attenuation_distance`, `attenuation_color`, `iridescence`,
-        /// `iridescence_ior`, `iridescence_thickness_minimum`, `iridescence_thickness_maximum`,
-        /// `anisotropy`, `anisotropy_rotation`, `dispersion`. Only what the file names.
-        std::map<std::string, Value> extensions;
-        /// `extras.lobe.parameters`: a model's own parameters by their names in the model.
-        std::map<std::string, Value> parameters;
-        /// `extras.lobe.layers`: materials blended over this one, the lowest first.
-        std::vector<Layer> layers;
-    };
+    Value weight{};  ///< one component in [0, 1]
+};
 
-    ///< one component in [0, 1]
+struct Material {
+    std::string name;
+    Pointer pointer;
+    Value base_color{};  ///< 4 components; the fourth is alpha
+    Value metallic{};
+    Value roughness{};
+    Value emissive{};  ///< with KHR_materials_emissive_strength multiplied in
+    std::optional<Texture> normal_map;
+    double normal_scale = 1;
+    std::optional<Texture> occlusion_map;
+    bool double_sided = false;
+    bool is_unlit = false;
+    enum class Alpha : std::uint8_t {
+        opaque,
+        mask,
+        blend
+    };
+    Alpha alpha = Alpha::opaque;
+    double alpha_cutoff = 0.5;
+    /// What the ratified KHR_materials_* give, under the extension's own property names in
+    /// snake case with the extension's name before those that need it: `ior`, `specular`,
+    /// `specular_color`, `clearcoat`, `clearcoat_roughness`, `sheen_color`, `sheen_roughness`,
+    /// `transmission`, `thickness`, `attenuation_distance`, `attenuation_color`, `iridescence`,
+    /// `iridescence_ior`, `iridescence_thickness_minimum`, `iridescence_thickness_maximum`,
+    /// `anisotropy`, `anisotropy_rotation`, `dispersion`. Only what the file names.
+    std::map<std::string, Value> extensions;
+    /// `extras.lobe.parameters`: a model's own parameters by their names in the model.
+    std::map<std::string, Value> parameters;
+    /// `extras.lobe.layers`: materials blended over this one, the lowest first.
+    std::vector<Layer> layers;
 };
 
 struct Light {
