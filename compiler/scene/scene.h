@@ -56,6 +56,8 @@ struct Texture {
     double rotation = 0;
     bool repeats_u = true;  ///< else clamped; mirrored repeats count as repeats
     bool repeats_v = true;
+    /// Values between those of texels occur: the sampler does not say NEAREST for both filters.
+    bool is_filtered = true;
     Pointer pointer;
 };
 
