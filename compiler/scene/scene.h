@@ -70,7 +70,7 @@ struct Value {
     std::vector<double> offset;
     std::optional<Texture> texture;
     std::vector<int> channels;  ///< of the texture, one per component: 0 r … 3 a
-    bool is_srgb = false;       ///< the texture's values are to be decoded before use
+    bool is_srgb = false;       ///< the texture's r, g and b are to be decoded before use; a is not
     Pointer pointer;
     bool is_given = false;  ///< false: the format's default
 };
@@ -143,12 +143,13 @@ struct Environment {
     /// Spherical harmonics of the irradiance, bands 0 to 2, RGB each.
     std::array<Color, 9> irradiance{};
     /// Prefiltered cube maps: mips from the sharpest, six faces each (+x -x +y -y +z -z), indices
-    /// into Scene::images.
+    /// into Scene::images. The pictures are RGBD: radiance is sRGB-decoded rgb over alpha.
     std::vector<std::array<std::size_t, 6>> specular;
     int specular_size = 0;  ///< texels along an edge of the sharpest mip
 };
 
-/// A primitive, its accessors decoded. All present attributes have as many elements.
+/// A primitive, its accessors decoded. All present attributes have as many elements. Skins and
+/// morph targets are left out: this is the pose of the file.
 struct Mesh {
     std::string name;
     Pointer pointer;
@@ -156,13 +157,16 @@ struct Mesh {
     std::vector<Vector3> normals;                ///< empty: flat
     std::vector<std::array<float, 4>> tangents;  ///< empty: none
     std::array<std::vector<std::array<float, 2>>, 2> coordinates;
+    std::vector<std::array<float, 4>>
+        colors;                            ///< COLOR_0, linear; empty: none. Base color times it
     std::vector<std::uint32_t> triangles;  ///< three per triangle; empty for points and lines
-    std::optional<std::size_t> material;   ///< none: the format's default material
+    std::size_t material = 0;              ///< index into Scene::materials
 };
 
 struct Instance {
     std::size_t mesh = 0;
     Matrix world{};
+    double area = 0;  ///< of its triangles in the world, in square meters
 };
 
 struct Camera {
@@ -176,7 +180,8 @@ struct Camera {
 struct Scene {
     std::string path;
     std::vector<Image> images;
-    std::vector<Material> materials;  ///< the file's, then the format's default where it is used
+    /// The file's, then the format's default where a primitive names none or the file has none.
+    std::vector<Material> materials;
     std::vector<Mesh> meshes;         ///< one per primitive
     std::vector<Instance> instances;  ///< of the default scene, or of the first
     std::vector<Light> lights;        ///< that nodes of the scene carry
