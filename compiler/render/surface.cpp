@@ -1,0 +1,278 @@
+#include "render/surface.h"
+
+#include "evaluate/tape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lobe::render {
+namespace {
+
+using Texel = std::array<float, 4>;
+
+Texel texel(const scene::Pixels& pixels, int x, int y)
+{
+    const float* const at = &pixels.rgba[4 * (static_cast<std::size_t>(y) * pixels.width + x)];
+    return {at[0], at[1], at[2], at[3]};
+}
+
+float decoded(float x)
+{
+    return x <= 0.04045F ? x / 12.92F : std::pow((x + 0.055F) / 1.055F, 2.4F);
+}
+
+int wrapped(int i, int size, bool repeats)
+{
+    return repeats ? ((i % size) + size) % size : std::clamp(i, 0, size - 1);
+}
+
+/// Bilinear, decoded before it is blended. White where the picture could not be read.
+Texel sample(const scene::Scene& scene, const scene::Texture& texture, const SurfacePoint& point,
+             bool is_srgb)
+{
+    const auto& pixels = scene.images[texture.image].pixels;
+    if (!pixels) return {1, 1, 1, 1};
+    const auto [s, t] = point.coordinates[texture.coordinates == 1 ? 1 : 0];
+    const double u = s * texture.scale[0];
+    const double v = t * texture.scale[1];
+    const double cosine = std::cos(texture.rotation);
+    const double sine = std::sin(texture.rotation);
+    const double x = (texture.offset[0] + cosine * u + sine * v) * pixels->width - 0.5;
+    const double y = (texture.offset[1] - sine * u + cosine * v) * pixels->height - 0.5;
+    const double left = std::floor(x);
+    const double top = std::floor(y);
+    Texel sum{};
+    for (int dy = 0; dy < 2; ++dy)
+        for (int dx = 0; dx < 2; ++dx) {
+            const double weight =
+                (dx == 0 ? 1 - (x - left) : x - left) * (dy == 0 ? 1 - (y - top) : y - top);
+            const Texel one = texel(
+                *pixels, wrapped(static_cast<int>(left) + dx, pixels->width, texture.repeats_u),
+                wrapped(static_cast<int>(top) + dy, pixels->height, texture.repeats_v));
+            for (int c = 0; c < 4; ++c)
+                sum[c] +=
+                    static_cast<float>(weight) * (is_srgb && c < 3 ? decoded(one[c]) : one[c]);
+        }
+    return sum;
+}
+
+/// Component `c` of a value at a point.
+class Sampled {
+public:
+    Sampled(const scene::Scene& scene, const scene::Value& value, const SurfacePoint& point)
+        : value_{value}
+    {
+        if (value.texture) texel_ = sample(scene, *value.texture, point, value.is_srgb);
+    }
+    double operator[](std::size_t c) const
+    {
+        const double factor = (value_.low[c] + value_.high[c]) / 2;
+        const double of_texture = value_.texture ? texel_[value_.channels[c]] : 1;
+        return factor * of_texture + (c < value_.offset.size() ? value_.offset[c] : 0);
+    }
+
+private:
+    const scene::Value& value_;
+    Texel texel_{1, 1, 1, 1};
+};
+
+template <class T>
+T blend(const Hit& hit, const T& a, const T& b, const T& c)
+{
+    T out{};
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = a[i] * (1 - hit.u - hit.v) + b[i] * hit.u + c[i] * hit.v;
+    return out;
+}
+
+std::array<std::uint32_t, 3> corners_of(const scene::Mesh& mesh, const Hit& hit)
+{
+    const std::uint32_t* const corner = &mesh.triangles[3 * hit.triangle];
+    return {corner[0], corner[1], corner[2]};
+}
+
+void apply_normal_map(const scene::Scene& scene, SurfacePoint& point)
+{
+    const scene::Material& material = scene.materials[point.material];
+    if (!material.normal_map || !scene.images[material.normal_map->image].pixels) return;
+    const Texel stored = sample(scene, *material.normal_map, point, false);
+    const auto scale = static_cast<float>(material.normal_scale);
+    point.n =
+        normalized(point.x * ((2 * stored[0] - 1) * scale) +
+                       point.y * ((2 * stored[1] - 1) * scale) + point.n * (2 * stored[2] - 1),
+                   point.n);
+}
+
+/// x across n again, after n was turned.
+void square_up(SurfacePoint& point, float side)
+{
+    const Vector3 flat = point.x - point.n * dot(point.n, point.x);
+    point.x = length(flat) > 0 ? normalized(flat) : across(point.n).x;
+    point.y = cross(point.n, point.x) * side;
+}
+
+}  // namespace
+
+SurfacePoint surface_point(const scene::Scene& scene, const Geometry& geometry, const Ray& ray,
+                           const Hit& hit)
+{
+    const scene::Instance& instance = scene.instances[hit.instance];
+    const scene::Mesh& mesh = scene.meshes[instance.mesh];
+    const auto [a, b, c] = corners_of(mesh, hit);
+    SurfacePoint point;
+    point.material = mesh.material;
+    point.v = -ray.direction;
+    point.position = ray.origin + ray.direction * hit.distance;
+    const Vector3 first = geometry.corner(hit, 0);
+    point.facet = normalized(
+        cross(geometry.corner(hit, 1) - first, geometry.corner(hit, 2) - first), point.v);
+    point.n =
+        mesh.normals.empty()
+            ? point.facet
+            : normalized(turned_normal(instance.world, blend(hit, mesh.normals[a], mesh.normals[b],
+                                                             mesh.normals[c])),
+                         point.facet);
+    if (dot(point.facet, point.v) < 0) {
+        point.facet = -point.facet;
+        if (!mesh.normals.empty()) point.n = -point.n;
+    }
+    if (mesh.normals.empty()) point.n = point.facet;
+    for (std::size_t set = 0; set < 2; ++set)
+        if (const auto& all = mesh.coordinates[set]; !all.empty())
+            point.coordinates[set] = blend(hit, all[a], all[b], all[c]);
+    float side = 1;
+    if (!mesh.tangents.empty()) {
+        const auto tangent = blend(hit, mesh.tangents[a], mesh.tangents[b], mesh.tangents[c]);
+        point.x = turned(instance.world, {tangent[0], tangent[1], tangent[2]});
+        side = tangent[3] < 0 ? -1.0F : 1.0F;
+    }
+    square_up(point, side);
+    apply_normal_map(scene, point);
+    square_up(point, side);
+    return point;
+}
+
+Vector3 shadow_origin(const scene::Scene& scene, const Geometry& geometry, const Hit& hit,
+                      const SurfacePoint& point)
+{
+    const scene::Instance& instance = scene.instances[hit.instance];
+    const scene::Mesh& mesh = scene.meshes[instance.mesh];
+    if (mesh.normals.empty()) return point.position;
+    const auto corners = corners_of(mesh, hit);
+    std::array<Vector3, 3> on_tangent_plane;
+    for (int i = 0; i < 3; ++i) {
+        const Vector3 corner = geometry.corner(hit, i);
+        Vector3 n = normalized(turned_normal(instance.world, mesh.normals[corners[i]]));
+        if (dot(n, point.facet) < 0) n = -n;
+        const float above = std::min(0.0F, dot(point.position - corner, n));
+        on_tangent_plane[i] = point.position - n * above;
+    }
+    return blend(hit, on_tangent_plane[0], on_tangent_plane[1], on_tangent_plane[2]);
+}
+
+Vector3 emission(const scene::Scene& scene, const SurfacePoint& point)
+{
+    const scene::Value& value = scene.materials[point.material].emissive;
+    if (value.low.size() != 3) return {};
+    const Sampled sampled{scene, value, point};
+    return {static_cast<float>(sampled[0]), static_cast<float>(sampled[1]),
+            static_cast<float>(sampled[2])};
+}
+
+// ---- values
+
+namespace {
+
+enum Place : std::size_t {
+    base_color = 0,
+    metallic = 3,
+    specular = 4,
+    roughness = 5,
+    alpha = 6,
+    diffuse_color = 7,
+    f0 = 10,
+    surface_size = 13
+};
+
+}  // namespace
+
+MaterialValues::MaterialValues(const ir::Module& module) : size_{surface_size}
+{
+    using ir::SurfaceField;
+    const std::pair<SurfaceField, std::size_t> fields[]{
+        {SurfaceField::base_color, base_color},
+        {SurfaceField::metallic, metallic},
+        {SurfaceField::specular, specular},
+        {SurfaceField::roughness, roughness},
+        {SurfaceField::alpha, alpha},
+        {SurfaceField::diffuse_color, diffuse_color},
+        {SurfaceField::f0, f0}};
+    const auto name = [this](std::string_view known, ir::Type type, ir::Quantity quantity,
+                             std::size_t first) {
+        for (int c = 0; c < ir::components(type); ++c)
+            columns_.emplace(std::string{known} + evaluate::component_suffix(type, quantity, c),
+                             first + c);
+    };
+    for (const auto& [field, first] : fields) {
+        const ir::FieldFacts& known = ir::facts(field);
+        name(known.name, known.type,
+             known.type == ir::Type::scalar ? ir::Quantity::number : ir::Quantity::color, first);
+    }
+    for (const ir::Parameter& parameter : module.parameters) {
+        name(parameter.name, parameter.type, parameter.quantity, size_);
+        parameters_.push_back({parameter.name, size_, parameter.range, parameter.default_value});
+        size_ += static_cast<std::size_t>(ir::components(parameter.type));
+    }
+}
+
+std::optional<std::size_t> MaterialValues::find(std::string_view column) const
+{
+    const auto found = columns_.find(column);
+    if (found == columns_.end()) return std::nullopt;
+    return found->second;
+}
+
+void MaterialValues::at(const scene::Scene& scene, const SurfacePoint& point,
+                        std::span<float> out) const
+{
+    const scene::Material& material = scene.materials[point.material];
+    const auto number = [](double x) { return static_cast<float>(x); };
+    const Sampled color{scene, material.base_color, point};
+    const double metal = std::clamp(Sampled(scene, material.metallic, point)[0], 0.0, 1.0);
+    const ir::FieldFacts& rough = ir::facts(ir::SurfaceField::roughness);
+    const double roughly =
+        std::clamp(Sampled(scene, material.roughness, point)[0], rough.low, rough.high);
+    const double gloss = 0.5;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double albedo = std::clamp(color[c], 0.0, 1.0);
+        out[base_color + c] = number(albedo);
+        out[diffuse_color + c] = number(albedo * (1 - metal));
+        out[f0 + c] = number(0.08 * gloss * (1 - metal) + albedo * metal);
+    }
+    out[metallic] = number(metal);
+    out[specular] = number(gloss);
+    out[roughness] = number(roughly);
+    out[alpha] = number(roughly * roughly);
+    for (const Wanted& wanted : parameters_) {
+        const scene::Value* value = nullptr;
+        if (const auto own = material.parameters.find(wanted.name);
+            own != material.parameters.end())
+            value = &own->second;
+        else if (const auto ratified = material.extensions.find(wanted.name);
+                 ratified != material.extensions.end())
+            value = &ratified->second;
+        if (value == nullptr) {
+            for (std::size_t c = 0; c < wanted.otherwise.size(); ++c)
+                out[wanted.first + c] = number(wanted.otherwise[c]);
+            continue;
+        }
+        const Sampled sampled{scene, *value, point};
+        for (std::size_t c = 0; c < wanted.otherwise.size(); ++c) {
+            const std::size_t from = value->low.size() == 1 ? 0 : c;
+            out[wanted.first + c] =
+                number(std::clamp(sampled[from], wanted.range.low, wanted.range.high));
+        }
+    }
+}
+
+}  // namespace lobe::render
