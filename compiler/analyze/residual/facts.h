@@ -1,11 +1,9 @@
 // What a scene says about a model's inputs: for every material the values or ranges of parameters
 // and surface fields, and why; over the scene which effects are called for, by which material.
 //
-// The surface is glTF's, read as every engine reads it: base color, metallic and roughness as they
-// are; `specular` by 0.08 specular = f0 of KHR_materials_ior and KHR_materials_specular, 0.5 where
-// neither is there. Roughness below the least that the language knows counts as that. A model's
-// parameter is what `extras.lobe.parameters` gives, else what a ratified extension of the same name
-// gives, else its default.
+// The surface is glTF's, read as every engine reads it (surface.h). A model's parameter is what
+// `extras.lobe.parameters` gives, else what a ratified extension of the same name gives, else its
+// default. A material with layers is what blending their parameters can make of it.
 #pragma once
 
 #include "ir/module.h"
@@ -31,11 +29,12 @@ struct InputFact {
 
 /// One material, under one model.
 struct MaterialFacts {
-    std::size_t material = 0;                 ///< index into Scene::materials
-    std::string name;                         ///< of the material, or `material 3`
-    double coverage = 0;                      ///< its share of the area shown; all together are 1
-    std::map<std::string, InputFact> inputs;  ///< parameters and surface fields, by name
-    std::vector<bool> calls;                  ///< per effect of the module: it may be on
+    std::size_t material = 0;  ///< index into Scene::materials
+    std::string name;          ///< of the material, or `material 3`
+    double coverage = 0;       ///< its share of the area shown; all together are 1
+    /// The surface fields that the model reads, and the parameters that are not at their default.
+    std::map<std::string, InputFact> inputs;
+    std::vector<bool> calls;  ///< per effect of the module: it may be on
 };
 
 struct EffectFact {
@@ -52,20 +51,38 @@ struct LightCount {
     bool ranged = false;  ///< one of them has a range: the window is needed
 };
 
+/// Which constants of the surface `SceneFacts::called` fixes. A parameter is fixed in both.
+enum class SurfaceUse : std::uint8_t {
+    /// 0 and 1, which take code away: no metal, all metal. Other constants stay inputs, so that a
+    /// shader keeps its signature when an artist picks another color.
+    shared,
+    /// All: a shader for these materials and no others.
+    fixed
+};
+
 struct SceneFacts {
     std::string model;
-    std::vector<MaterialFacts> materials;  ///< shown ones, in the file's order
+    std::vector<MaterialFacts> materials;  ///< shown and lit ones, in the file's order
     std::vector<EffectFact> effects;       ///< in the module's order
     std::vector<LightCount> lights;        ///< kinds that the scene has, in the enum's order
     bool has_environment = false;
     bool has_tangents = false;
     bool double_sided = false;
     bool has_layers = false;
-    std::vector<std::string> not_modeled;  ///< extensions that no parameter of the model takes
+    /// What the file asks for and no parameter of the model takes: `KHR_materials_clearcoat`, and
+    /// of which material first.
+    std::vector<std::string> not_modeled;
+    /// Of the module's parameters, by name.
+    std::map<std::string, InputFact> defaults;
+
+    /// What an input of a material is; the name is of a parameter, or of a surface field that the
+    /// model reads.
+    const InputFact& input(const MaterialFacts& of, const std::string& name) const;
 
     /// What all these materials (all where empty) have in common: constants they share, hulls of
     /// ranges, effects that none of them calls for.
-    optimize::Called called(const std::vector<std::size_t>& of = {}) const;
+    optimize::Called called(const std::vector<std::size_t>& of = {},
+                            SurfaceUse surface = SurfaceUse::shared) const;
 };
 
 struct FoundFacts {
@@ -74,7 +91,8 @@ struct FoundFacts {
 };
 
 /// Values outside the model's ranges, unknown parameters (with the nearest name) and wrong sizes
-/// are errors at their pointer. `model` is one of the module's.
+/// are errors at their pointer, and so is a scene without a lit material. `model` is one of the
+/// module's.
 FoundFacts find_facts(const scene::Scene& scene, const ir::Module& module,
                       const std::string& model);
 

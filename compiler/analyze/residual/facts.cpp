@@ -1,0 +1,239 @@
+#include "analyze/residual/facts.h"
+
+#include "analyze/residual/conditions.h"
+#include "analyze/residual/parameters.h"
+#include "analyze/residual/surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace lobe::analyze {
+namespace {
+
+using scene::Complaint;
+
+/// As many as a reader of a file gives.
+constexpr std::size_t most_complaints = 100;
+
+/// The surface fields that the outputs of a model read, in the order of the language.
+std::vector<ir::SurfaceField> fields_of(const ir::Module& module, const std::string& model)
+{
+    std::set<ir::SurfaceField> fields;
+    for (const ir::Model& each : module.models)
+        if (each.name == model)
+            for (const ir::ModelOutput& output : each.outputs)
+                for (const ir::Input& input : module[output.function].inputs)
+                    if (input.origin == ir::Origin::surface)
+                        fields.insert(static_cast<ir::SurfaceField>(input.which));
+    return {fields.begin(), fields.end()};
+}
+
+class Finder {
+public:
+    Finder(const scene::Scene& scene, const ir::Module& module, const std::string& model)
+        : scene_{scene}, module_{module}, fields_{fields_of(module, model)}, conditions_{module}
+    {
+        facts_.model = model;
+        facts_.defaults = default_facts(module);
+    }
+
+    FoundFacts run()
+    {
+        const std::vector<std::size_t> shown = scene_.shown_materials();
+        const std::vector<double> areas = scene_.coverage();
+        double all = 0;
+        for (const std::size_t index : shown) all += areas[index];
+        for (const std::size_t index : shown) {
+            if (scene_.materials[index].is_unlit) {
+                note_once("KHR_materials_unlit", scene_.materials[index]);
+                continue;
+            }
+            add(index, all > 0 ? areas[index] / all : 1.0 / static_cast<double>(shown.size()));
+        }
+        if (facts_.materials.empty() && errors_.empty())
+            errors_.push_back({true, "", "no material to shade",
+                               shown.empty() ? "a primitive that has no material shows the "
+                                               "format's default one; this scene has no primitive"
+                                             : "all of them are KHR_materials_unlit"});
+        FoundFacts out;
+        const bool ok = errors_.empty();
+        if (errors_.size() > most_complaints) {
+            const std::size_t more = errors_.size() - most_complaints;
+            errors_.resize(most_complaints);
+            errors_.push_back({true, "", fmt::format("{} more like these", more), ""});
+        }
+        out.complaints = std::move(errors_);
+        out.complaints.insert(out.complaints.end(), notes_.begin(), notes_.end());
+        if (!ok) return out;
+        tell_effects();
+        tell_scene(shown);
+        out.facts = std::move(facts_);
+        return out;
+    }
+
+private:
+    void add(std::size_t index, double coverage)
+    {
+        const scene::Material& material = scene_.materials[index];
+        MaterialFacts facts;
+        facts.material = index;
+        facts.name = material.name.empty() ? fmt::format("material {}", index) : material.name;
+        facts.coverage = coverage;
+        facts.inputs = given_parameters(scene_, material, module_, errors_);
+        RawSurface raw = raw_surface(scene_, material);
+        for (const scene::Layer& layer : material.layers) blend_in(layer, raw, facts.inputs);
+        std::erase_if(facts.inputs, [](const auto& named) { return named.second.is_default; });
+        for (const ir::SurfaceField field : fields_)
+            facts.inputs[std::string{ir::facts(field).name}] = surface_field(raw, field);
+        if (raw.exceeds_specular && std::ranges::count(fields_, ir::SurfaceField::specular) > 0)
+            note_once("KHR_materials_specular beyond what `specular` says", material);
+        for (const std::string& extension : not_modeled(scene_, material, module_))
+            note_once(extension, material);
+        for (std::size_t effect = 0; effect < module_.effects.size(); ++effect)
+            facts.calls.push_back(conditions_.can_be_on(effect, facts.inputs, facts_.defaults));
+        facts_.materials.push_back(std::move(facts));
+    }
+
+    /// What a layer's parameters, blended over those below by a weight, can make of them.
+    void blend_in(const scene::Layer& layer, RawSurface& raw,
+                  std::map<std::string, InputFact>& inputs)
+    {
+        facts_.has_layers = true;
+        const scene::Material& over = scene_.materials[layer.material];
+        raw = hull(raw, raw_surface(scene_, over));
+        // Its own mistakes are told where it is a material of its own.
+        std::vector<Complaint> told;
+        const auto given = given_parameters(scene_, over, module_, told);
+        for (const auto& [name, fact] : given) inputs.try_emplace(name, facts_.defaults.at(name));
+        for (auto& [name, fact] : inputs) {
+            const auto found = given.find(name);
+            fact = hull(fact, found == given.end() ? facts_.defaults.at(name) : found->second);
+        }
+    }
+
+    void note_once(const std::string& what, const scene::Material& material)
+    {
+        if (!noted_.insert(what).second) return;
+        facts_.not_modeled.push_back(what);
+        notes_.push_back({false, material.pointer,
+                          fmt::format("{} is in no parameter of `{}`", what, module_.name), ""});
+    }
+
+    void tell_effects()
+    {
+        for (std::size_t i = 0; i < module_.effects.size(); ++i) {
+            EffectFact effect;
+            effect.name = module_.effects[i].name;
+            for (std::size_t m = 0; m < facts_.materials.size(); ++m)
+                if (facts_.materials[m].calls[i]) effect.materials.push_back(m);
+            effect.is_on = !effect.materials.empty();
+            effect.why = "no material calls for it";
+            if (effect.is_on) explain(effect, i, facts_.materials[effect.materials.front()]);
+            facts_.effects.push_back(std::move(effect));
+        }
+    }
+
+    /// The values of a material that keep an effect's condition from holding.
+    void explain(EffectFact& effect, std::size_t index, const MaterialFacts& material) const
+    {
+        effect.why.clear();
+        for (const std::string& name : conditions_.parameters_of(index)) {
+            const auto found = material.inputs.find(name);
+            if (found == material.inputs.end()) continue;
+            effect.why +=
+                fmt::format("{}{} {}{}", effect.why.empty() ? "" : ", ", name,
+                            found->second.is_constant() ? "= " : "", in_words(found->second));
+            if (effect.called_by.empty()) effect.called_by = found->second.called_by;
+        }
+        if (effect.why.empty()) effect.why = "on at the defaults";
+    }
+
+    void tell_scene(const std::vector<std::size_t>& shown)
+    {
+        using Kind = scene::Light::Kind;
+        for (const Kind kind :
+             {Kind::directional, Kind::point, Kind::spot, Kind::sphere, Kind::tube}) {
+            LightCount count{kind, 0, false};
+            for (const scene::Light& light : scene_.lights)
+                if (light.kind == kind) {
+                    ++count.count;
+                    count.ranged = count.ranged || light.range.has_value();
+                }
+            if (count.count > 0) facts_.lights.push_back(count);
+        }
+        facts_.has_environment = scene_.environment.has_value();
+        facts_.has_tangents = std::ranges::any_of(
+            scene_.meshes, [](const scene::Mesh& mesh) { return !mesh.tangents.empty(); });
+        facts_.double_sided = std::ranges::any_of(
+            shown, [&](std::size_t index) { return scene_.materials[index].double_sided; });
+    }
+
+    const scene::Scene& scene_;
+    const ir::Module& module_;
+    std::vector<ir::SurfaceField> fields_;
+    Conditions conditions_;
+    SceneFacts facts_;
+    std::vector<Complaint> errors_;
+    std::vector<Complaint> notes_;
+    std::set<std::string> noted_;
+};
+
+bool is_zero_or_one(double value) { return value == 0 || value == 1; }
+
+}  // namespace
+
+const InputFact& SceneFacts::input(const MaterialFacts& of, const std::string& name) const
+{
+    const auto found = of.inputs.find(name);
+    return found == of.inputs.end() ? defaults.at(name) : found->second;
+}
+
+optimize::Called SceneFacts::called(const std::vector<std::size_t>& of, SurfaceUse surface) const
+{
+    std::vector<std::size_t> chosen = of;
+    if (chosen.empty()) {
+        chosen.resize(materials.size());
+        std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+    }
+    std::set<std::string> names;
+    for (const auto& [name, fact] : defaults) names.insert(name);
+    for (const auto& [name, fact] : materials[chosen.front()].inputs) names.insert(name);
+
+    optimize::Called out;
+    for (const std::string& name : names) {
+        const InputFact& first = input(materials[chosen.front()], name);
+        ir::Range range = first.components.front();
+        bool same = true;
+        bool binary = true;
+        for (const std::size_t index : chosen) {
+            const InputFact& fact = input(materials[index], name);
+            for (std::size_t k = 0; k < fact.components.size(); ++k) {
+                const ir::Range& component = fact.components[k];
+                same = same && component.low == component.high && component == first.components[k];
+                range = {std::min(range.low, component.low), std::max(range.high, component.high)};
+            }
+            binary = binary && fact.is_binary;
+        }
+        const bool is_parameter = defaults.contains(name);
+        if (same && (is_parameter || surface == SurfaceUse::fixed ||
+                     std::ranges::all_of(first.value(), is_zero_or_one)))
+            out.constants[name] = first.value();
+        else
+            out.ranges[name] = range;
+        if (binary) out.binary.insert(name);
+    }
+    for (std::size_t i = 0; i < effects.size(); ++i)
+        if (std::ranges::none_of(chosen, [&](std::size_t m) { return materials[m].calls[i]; }))
+            out.off.insert(effects[i].name);
+    return out;
+}
+
+FoundFacts find_facts(const scene::Scene& scene, const ir::Module& module, const std::string& model)
+{
+    return Finder{scene, module, model}.run();
+}
+
+}  // namespace lobe::analyze
