@@ -69,7 +69,7 @@ std::size_t alpha_column(const MaterialValues& values) { return *values.find("al
 Lighting::Lighting(const scene::Scene& scene, const Geometry& geometry, const Sky& sky,
                    const Shader& shader, const RenderOptions& options)
     : scene_{scene}, geometry_{geometry}, sky_{sky}, directions_{options.directions},
-      values_{*shader.module}, radiance_{*shader.module, shader.radiance, values_}
+      values_{scene, *shader.module}, radiance_{*shader.module, shader.radiance, values_}
 {
     for (const auto& [kind, function] : shader.lit)
         lit_.emplace(kind, Program{*shader.module, function, values_});
@@ -90,7 +90,7 @@ std::vector<Vector3> Lighting::light(const std::vector<Seen>& points) const
     std::vector<float> row(values_.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         const SurfacePoint& at = points[i].point;
-        values_.at(scene_, at, row);
+        values_.at(at, row);
         for (std::size_t k = 0; k < row.size(); ++k) batch.values[k][i] = row[k];
         place(batch.frame, 0, i, at.n);
         place(batch.frame, 3, i, at.x);

@@ -196,7 +196,8 @@ enum Place : std::size_t {
 
 }  // namespace
 
-MaterialValues::MaterialValues(const ir::Module& module) : size_{surface_size}
+MaterialValues::MaterialValues(const scene::Scene& scene, const ir::Module& module)
+    : scene_{scene}, size_{surface_size}
 {
     using ir::SurfaceField;
     const std::pair<SurfaceField, std::size_t> fields[]{
@@ -223,6 +224,23 @@ MaterialValues::MaterialValues(const ir::Module& module) : size_{surface_size}
         parameters_.push_back({parameter.name, size_, parameter.range, parameter.default_value});
         size_ += static_cast<std::size_t>(ir::components(parameter.type));
     }
+    for (const scene::Material& material : scene.materials) {
+        const auto in = [](const std::map<std::string, scene::Value>& values,
+                           const std::string& wanted) -> const scene::Value* {
+            const auto found = values.find(wanted);
+            return found == values.end() ? nullptr : &found->second;
+        };
+        Given given{in(material.extensions, "ior"),
+                    in(material.extensions, "specular"),
+                    in(material.extensions, "specular_color"),
+                    {}};
+        for (const Parameter& parameter : parameters_) {
+            const scene::Value* const own = in(material.parameters, parameter.name);
+            given.parameters.push_back(own != nullptr ? own
+                                                      : in(material.extensions, parameter.name));
+        }
+        given_.push_back(std::move(given));
+    }
 }
 
 std::optional<std::size_t> MaterialValues::find(std::string_view column) const
@@ -232,45 +250,61 @@ std::optional<std::size_t> MaterialValues::find(std::string_view column) const
     return found->second;
 }
 
-void MaterialValues::at(const scene::Scene& scene, const SurfacePoint& point,
-                        std::span<float> out) const
+/// KHR_materials_ior and KHR_materials_specular.
+std::array<double, 3> MaterialValues::dielectric_f0(const SurfacePoint& point) const
 {
-    const scene::Material& material = scene.materials[point.material];
+    const Given& given = given_[point.material];
+    double f0_of_index = 0.04;
+    if (given.ior != nullptr) {
+        const double n = Sampled(scene_, *given.ior, point)[0];
+        f0_of_index = (n - 1) * (n - 1) / ((n + 1) * (n + 1));
+    }
+    double strength = 1;
+    if (given.specular != nullptr) strength = Sampled(scene_, *given.specular, point)[0];
+    std::array<double, 3> out{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        double color = 1;
+        if (given.specular_color != nullptr)
+            color = Sampled(scene_, *given.specular_color, point)[c];
+        out[c] = std::min(f0_of_index * color, 1.0) * strength;
+    }
+    return out;
+}
+
+void MaterialValues::at(const SurfacePoint& point, std::span<float> out) const
+{
+    const scene::Material& material = scene_.materials[point.material];
     const auto number = [](double x) { return static_cast<float>(x); };
-    const Sampled color{scene, material.base_color, point};
-    const double metal = std::clamp(Sampled(scene, material.metallic, point)[0], 0.0, 1.0);
-    const ir::FieldFacts& rough = ir::facts(ir::SurfaceField::roughness);
-    const double roughly =
-        std::clamp(Sampled(scene, material.roughness, point)[0], rough.low, rough.high);
-    const double gloss = 0.5;
+    const Sampled color{scene_, material.base_color, point};
+    const double metal = std::clamp(Sampled(scene_, material.metallic, point)[0], 0.0, 1.0);
+    const ir::FieldFacts& limits = ir::facts(ir::SurfaceField::roughness);
+    const double rough =
+        std::clamp(Sampled(scene_, material.roughness, point)[0], limits.low, limits.high);
+    const auto dielectric = dielectric_f0(point);
     for (std::size_t c = 0; c < 3; ++c) {
         const double albedo = std::clamp(color[c], 0.0, 1.0);
         out[base_color + c] = number(albedo);
         out[diffuse_color + c] = number(albedo * (1 - metal));
-        out[f0 + c] = number(0.08 * gloss * (1 - metal) + albedo * metal);
+        out[f0 + c] = number(dielectric[c] * (1 - metal) + albedo * metal);
     }
     out[metallic] = number(metal);
-    out[specular] = number(gloss);
-    out[roughness] = number(roughly);
-    out[alpha] = number(roughly * roughly);
-    for (const Wanted& wanted : parameters_) {
-        const scene::Value* value = nullptr;
-        if (const auto own = material.parameters.find(wanted.name);
-            own != material.parameters.end())
-            value = &own->second;
-        else if (const auto ratified = material.extensions.find(wanted.name);
-                 ratified != material.extensions.end())
-            value = &ratified->second;
-        if (value == nullptr) {
-            for (std::size_t c = 0; c < wanted.otherwise.size(); ++c)
-                out[wanted.first + c] = number(wanted.otherwise[c]);
-            continue;
-        }
-        const Sampled sampled{scene, *value, point};
-        for (std::size_t c = 0; c < wanted.otherwise.size(); ++c) {
-            const std::size_t from = value->low.size() == 1 ? 0 : c;
-            out[wanted.first + c] =
-                number(std::clamp(sampled[from], wanted.range.low, wanted.range.high));
+    out[specular] =
+        number(std::min(*std::max_element(dielectric.begin(), dielectric.end()) / 0.08, 1.0));
+    out[roughness] = number(rough);
+    out[alpha] = number(rough * rough);
+    const Given& given = given_[point.material];
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+        const Parameter& parameter = parameters_[i];
+        const scene::Value* const value = given.parameters[i];
+        for (std::size_t c = 0; c < parameter.otherwise.size(); ++c)
+            out[parameter.first + c] = number(parameter.otherwise[c]);
+        if (value == nullptr) continue;
+        const Sampled sampled{scene_, *value, point};
+        for (std::size_t c = 0; c < parameter.otherwise.size(); ++c) {
+            // One number stands for a gray.
+            const double x = sampled[value->low.size() == 1 ? 0 : c];
+            out[parameter.first + c] =
+                number(std::clamp(x, parameter.range.low, parameter.range.high));
         }
     }
 }

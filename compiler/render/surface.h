@@ -36,11 +36,12 @@ Vector3 shadow_origin(const scene::Scene& scene, const Geometry& geometry, const
 Vector3 emission(const scene::Scene& scene, const SurfacePoint& point);
 
 /// Everything that a module can ask of a material, by name and component: the surface's fields as
-/// engines derive them (docs/language.md), and the module's parameters. A value that game code sets
-/// is taken in the middle of its range.
+/// engines derive them, glTF's material read as analyze/residual/facts.h reads it, and the module's
+/// parameters. A value that game code sets is taken in the middle of its range.
 class MaterialValues {
 public:
-    explicit MaterialValues(const ir::Module& module);
+    /// The scene outlives this.
+    MaterialValues(const scene::Scene& scene, const ir::Module& module);
 
     /// Numbers per point.
     std::size_t size() const { return size_; }
@@ -48,16 +49,27 @@ public:
     std::optional<std::size_t> find(std::string_view column) const;
 
     /// `out` has `size()` numbers.
-    void at(const scene::Scene& scene, const SurfacePoint& point, std::span<float> out) const;
+    void at(const SurfacePoint& point, std::span<float> out) const;
 
 private:
-    struct Wanted {
+    struct Parameter {
         std::string name;
         std::size_t first = 0;
         ir::Range range{};
         std::vector<double> otherwise;
     };
-    std::vector<Wanted> parameters_;
+    /// What one material gives; null where it gives nothing.
+    struct Given {
+        const scene::Value* ior = nullptr;
+        const scene::Value* specular = nullptr;
+        const scene::Value* specular_color = nullptr;
+        std::vector<const scene::Value*> parameters;
+    };
+    std::array<double, 3> dielectric_f0(const SurfacePoint& point) const;
+
+    const scene::Scene& scene_;
+    std::vector<Given> given_;  ///< per material
+    std::vector<Parameter> parameters_;
     std::map<std::string, std::size_t, std::less<>> columns_;
     std::size_t size_ = 0;
 };
