@@ -42,12 +42,13 @@ public:
           scope_(listing_.scope())
     {
         if (!from_vectors_) return;
+        frame_.bare = module.bare_geometry;
         for (const ir::FunctionId id : functions_)
             for (const ir::Input& input : module_[id].inputs) {
                 if (input.origin != ir::Origin::geometry) continue;
                 const auto field = static_cast<ir::GeometryField>(input.which);
                 tangents_ |= ir::needs_tangents(field);
-                has_complement_ |= ir::gives_cos_h(field);
+                frame_.expect(field);
             }
     }
 
@@ -88,17 +89,14 @@ private:
             declared.which = static_cast<std::uint32_t>(which);
             return text_.input(declare(key_of(declared), declared), declared.type);
         };
-        ir::Frame frame;
-        frame.l = vector(ir::GeometryField::l);
-        frame.v = vector(ir::GeometryField::v);
-        frame.n = vector(ir::GeometryField::n);
+        frame_.l = vector(ir::GeometryField::l);
+        frame_.v = vector(ir::GeometryField::v);
+        frame_.n = vector(ir::GeometryField::n);
         if (tangents_) {
-            frame.x = vector(ir::GeometryField::x);
-            frame.y = vector(ir::GeometryField::y);
+            frame_.x = vector(ir::GeometryField::x);
+            frame_.y = vector(ir::GeometryField::y);
         }
-        frame.bare = module_.bare_geometry;
-        frame.has_complement = has_complement_;
-        return ir::expand(text_.graph, field, frame);
+        return ir::expand(text_.graph, field, frame_);
     }
 
     static std::string key_of(const ir::Input& input)
@@ -143,7 +141,7 @@ private:
     NumberFormat format_;
     bool from_vectors_;
     bool tangents_ = false;
-    bool has_complement_ = false;
+    ir::Frame frame_;
     const Dialect& dialect_;
     Listing listing_;
     Scope scope_;

@@ -93,7 +93,7 @@ private:
             frame.x = vector(ir::GeometryField::x);
             frame.y = vector(ir::GeometryField::y);
         }
-        frame.has_complement = std::ranges::any_of(inputs_.geometry, ir::gives_cos_h);
+        for (const ir::GeometryField field : inputs_.geometry) frame.expect(field);
         std::string surface;
         std::string parameters;
         if (!inputs_.surface.empty()) surface = argument(surface_type, "surface") + ".";

@@ -158,12 +158,23 @@ public:
         return saturated(graph_.apply(Op::add, {times("0.5", dot(chord, chord)), lacks_h}));
     }
 
-    /// (1 - cos_h)(1 + cos_h)
+    /// (1 - cos_h)(1 + cos_h), as a sum that joins with its product where that costs nothing.
     ExprId sin2_h()
     {
         const ExprId complement = one_minus_cos_h();
-        const ExprId one_plus = graph_.apply(Op::subtract, {number("2"), complement});
-        return saturated(graph_.apply(Op::multiply, {complement, one_plus}));
+        const ExprId cosine = graph_.apply(Op::subtract, {number("1"), complement});
+        const ExprId rest = graph_.apply(Op::multiply, {complement, cosine});
+        return saturated(graph_.apply(Op::add, {complement, rest}));
+    }
+
+    /// |l + v|^2 / 2 - 1 where that sum is made anyway; it is not below -1.
+    ExprId v_dot_l()
+    {
+        if (!frame_.has_sum || frame_.bare) return cosine(frame_.v, frame_.l);
+        return graph_.apply(
+            Op::minimum,
+            {graph_.apply(Op::subtract, {times("0.5", squared_length()), number("1")}),
+             number("1")});
     }
 
     /// |l - v|^2 / (4 (1 + cos_d))
@@ -203,10 +214,31 @@ private:
 
 }  // namespace
 
-bool gives_cos_h(GeometryField field)
+void Frame::expect(GeometryField field)
 {
-    // Not sin2_h: what divides by cos_h near the horizon reads that, and needs the product.
-    return field == GeometryField::one_minus_cos_h;
+    switch (field) {
+    // Not for sin2_h: what divides by cos_h near the horizon reads that, and needs the product.
+    case GeometryField::one_minus_cos_h: has_complement = has_sum = true; break;
+    case GeometryField::h:
+    case GeometryField::cos_h:
+    case GeometryField::cos_d:
+    case GeometryField::x_dot_h:
+    case GeometryField::y_dot_h:
+    case GeometryField::sin2_h:
+    case GeometryField::one_minus_cos_d: has_sum = true; break;
+    case GeometryField::l:
+    case GeometryField::v:
+    case GeometryField::n:
+    case GeometryField::x:
+    case GeometryField::y:
+    case GeometryField::cos_i:
+    case GeometryField::cos_o:
+    case GeometryField::v_dot_l:
+    case GeometryField::x_dot_l:
+    case GeometryField::y_dot_l:
+    case GeometryField::x_dot_v:
+    case GeometryField::y_dot_v: break;
+    }
 }
 
 ExprId expand(Graph& graph, GeometryField field, const Frame& frame)
@@ -223,7 +255,7 @@ ExprId expand(Graph& graph, GeometryField field, const Frame& frame)
     case GeometryField::cos_o: return of.saturated(of.dot(frame.n, frame.v));
     case GeometryField::cos_h: return of.cos_h();
     case GeometryField::cos_d: return of.cos_d();
-    case GeometryField::v_dot_l: return of.cosine(frame.v, frame.l);
+    case GeometryField::v_dot_l: return of.v_dot_l();
     case GeometryField::x_dot_l: return of.cosine(frame.x, frame.l);
     case GeometryField::y_dot_l: return of.cosine(frame.y, frame.l);
     case GeometryField::x_dot_v: return of.cosine(frame.x, frame.v);

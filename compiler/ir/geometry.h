@@ -90,13 +90,15 @@ struct Frame {
     /// As a port by hand computes fields: h is normalize(l + v), which l = -v makes undefined, and
     /// cosines that no saturation holds are as they come. For comparison only.
     bool bare = false;
-    /// One of the fields below is computed as well: cos_h is one minus that, not a product of its
-    /// own.
+    /// one_minus_cos_h is computed as well: cos_h is one minus that, not a product of its own.
     bool has_complement = false;
-};
+    /// |l + v| is computed as well: v.l follows from that.
+    bool has_sum = false;
 
-/// True for the fields that cos_h follows from: see Frame::has_complement.
-bool gives_cos_h(GeometryField field);
+    /// To be told of all fields that will be computed, before the first one is: some are made of
+    /// what others need.
+    void expect(GeometryField field);
+};
 
 /// The expression that computes a field from the vectors. Guarded: l = -v gives h = 0.
 /// Cosines are saturated; `sin2_h`, `one_minus_*` are saturated.

@@ -139,7 +139,7 @@ Function entry_point(const Module& module, FunctionId id)
             geometry = true;
             const auto field = static_cast<GeometryField>(input.which);
             tangents |= needs_tangents(field);
-            frame.has_complement |= gives_cos_h(field);
+            frame.expect(field);
         }
     if (geometry) {
         frame.l = add_vector(GeometryField::l);
