@@ -74,9 +74,10 @@ std::vector<ir::FunctionId> terms_of(const ir::Module& module, const ParetoOptio
 std::string key_of(const TradeSubject& subject, const FoundNames& found,
                    const ParetoOptions& options, const std::string& driver)
 {
-    std::string key = fmt::format("trade 1\n{}\n{}\n{} points{}\n{}\n", subject.name(),
+    std::string key = fmt::format("trade 2\n{}\n{}\n{} points{}\n{}\n", subject.name(),
                                   subject.is_model() ? "model" : "term", options.points,
                                   options.every_cost ? ", every cost" : "", driver);
+    for (const Family family : options.cost.families) key += fmt::format("{}\n", name(family));
     for (const auto& [term, form] : found) key += fmt::format("found {} {}\n", term, form);
     for (const ir::Parameter& parameter : subject.module().parameters)
         key += fmt::format("{} {} {}\n", parameter.name, parameter.range.low, parameter.range.high);

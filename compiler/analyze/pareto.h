@@ -13,6 +13,7 @@
 #include "optimize/spelling.h"
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,7 +22,7 @@
 
 namespace lobe::analyze {
 
-/// What a trade is judged on: the cost columns that a frontier is drawn for.
+/// Where a candidate stands on a family.
 struct Standing {
     bool on_frontier = false;
     std::optional<std::size_t> dominated_by;  ///< another candidate of the same list
@@ -40,7 +41,7 @@ struct Candidate {
     std::optional<double> proved_rounding;  ///< bound of the scaled rounding error
     Cost cost;                              ///< given its fields
     Cost from_vectors;                      ///< with what the fields take
-    std::vector<Standing> standing;         ///< per family; empty without costs
+    std::map<Family, Standing> standing;    ///< on the families that were measured
 };
 
 std::string describe(const Candidate& candidate);  ///< `F_Schlick: spherical_gaussian; half`

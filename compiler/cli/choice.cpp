@@ -269,6 +269,7 @@ Chosen choose(const ir::Module& checked, const Sources& sources, const Limit& li
     options.models = !checked.models.empty();
     options.terms = checked.models.empty();
     options.cost.jobs = jobs;
+    options.cost.families = {limit.family};
     options.progress = [&](const analyze::Progress& at) {
         progress.show(fmt::format("{}: {} of {} {}", checked.name, at.done, at.total, at.what));
     };

@@ -204,6 +204,7 @@ struct Cost {
     {
         Progress progress{terminal};
         analyze::CostOptions options;
+        options.families = chosen_families();
         options.nanoseconds = nanoseconds;
         options.device = device;
         options.jobs = jobs;
@@ -247,6 +248,14 @@ struct Cost {
                                        : "it was measured without --from-vectors";
             return std::nullopt;
         }
+        for (const std::string& family : families)
+            if (before && std::ranges::any_of(before->rows, [&](const report::CostRow& row) {
+                    return !row.cost.families.empty() &&
+                           !row.cost.families.contains(*analyze::find_family(family));
+                })) {
+                why = fmt::format("it has no cycles on {}", family);
+                return std::nullopt;
+            }
         return before;
     }
 

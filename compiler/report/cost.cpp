@@ -67,8 +67,7 @@ Table cost_table(const CostReport& report, std::span<const analyze::Family> fami
         if (has_families && row.cost.families.empty()) {
             cells.resize(cells.size() + (details ? 7 : families.size()));
         } else if (details) {
-            const analyze::FamilyCost& cost =
-                row.cost.families[static_cast<std::size_t>(families.front())];
+            const analyze::FamilyCost& cost = row.cost.families.at(families.front());
             cells.push_back({number(cost.issue), Style::strong});
             for (const double value :
                  {cost.valu, cost.transcendental, cost.inverse_throughput, cost.latency})

@@ -70,7 +70,7 @@ struct CostComparison {
     bool regressed(double limit) const;
 };
 
-/// Issue cycles on each family; where either side has none, SPIR-V instructions.
+/// Issue cycles on each family that both have cycles of; where that is none, SPIR-V instructions.
 CostComparison compare(const CostReport& before, const CostReport& now,
                        std::span<const analyze::Family> families);
 

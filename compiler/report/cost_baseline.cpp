@@ -64,10 +64,10 @@ std::string percent(double relative)
     return fmt::format("{:+.1f} %", 100 * relative);
 }
 
-bool has_families(const CostReport& report)
+bool has_cycles(const CostReport& report, analyze::Family family)
 {
-    return std::ranges::all_of(report.rows,
-                               [](const CostRow& row) { return !row.cost.families.empty(); });
+    return std::ranges::all_of(
+        report.rows, [family](const CostRow& row) { return row.cost.families.contains(family); });
 }
 
 }  // namespace
@@ -90,12 +90,12 @@ CostComparison compare(const CostReport& before, const CostReport& now,
 {
     CostComparison out;
     if (before.driver != now.driver) out.before_driver = before.driver;
-    if (has_families(before) && has_families(now))
-        for (const analyze::Family family : families)
+    for (const analyze::Family family : families)
+        if (has_cycles(before, family) && has_cycles(now, family))
             out.measures.push_back(changes(
                 before, now, fmt::format("issue cycles on {}", analyze::title(family)),
                 [family](const analyze::Cost& cost) { return analyze::issue_on(cost, family); }));
-    else
+    if (out.measures.empty())
         out.measures.push_back(
             changes(before, now, "SPIR-V instructions", [](const analyze::Cost& cost) {
                 return static_cast<double>(cost.spirv_instructions);

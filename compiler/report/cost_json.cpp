@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace lobe::report {
 namespace {
 
@@ -18,9 +20,8 @@ constexpr int schema = 1;
 ordered_json to_json(const CostRow& row)
 {
     ordered_json families = ordered_json::object();
-    for (std::size_t i = 0; i < row.cost.families.size(); ++i) {
-        const analyze::FamilyCost& cost = row.cost.families[i];
-        families[std::string{analyze::name(analyze::all_families[i])}] = {
+    for (const auto& [family, cost] : row.cost.families)
+        families[std::string{analyze::name(family)}] = {
             {"issue_cycles", json_number(cost.issue)},
             {"valu", json_number(cost.valu)},
             {"transcendental", json_number(cost.transcendental)},
@@ -28,7 +29,6 @@ ordered_json to_json(const CostRow& row)
             {"latency", json_number(cost.latency)},
             {"vgprs", cost.vgprs},
             {"waves", cost.waves}};
-    }
     ordered_json out{{"module", row.module},
                      {"name", row.name},
                      {"whole_model", row.whole_model},
@@ -73,8 +73,8 @@ bool read(const json& object, CostRow& row)
     if (families == object.end() || !families->is_object()) return false;
     for (const analyze::Family family : analyze::all_families) {
         const auto found = families->find(std::string{analyze::name(family)});
-        if (found == families->end()) break;
-        analyze::FamilyCost& cost = row.cost.families.emplace_back();
+        if (found == families->end()) continue;
+        analyze::FamilyCost& cost = row.cost.families[family];
         if (!found->is_object() || !read(*found, "issue_cycles", cost.issue) ||
             !read(*found, "valu", cost.valu) ||
             !read(*found, "transcendental", cost.transcendental) ||
@@ -83,7 +83,19 @@ bool read(const json& object, CostRow& row)
             !read(*found, "waves", cost.waves))
             return false;
     }
-    return row.cost.families.empty() || row.cost.families.size() == analyze::all_families.size();
+    return true;
+}
+
+/// All rows that have cycles have them on the same families.
+bool is_even(const CostReport& report)
+{
+    const auto first = std::ranges::find_if(
+        report.rows, [](const CostRow& row) { return !row.cost.families.empty(); });
+    return std::all_of(first, report.rows.end(), [&](const CostRow& row) {
+        return row.cost.families.empty() ||
+               std::ranges::equal(row.cost.families, first->cost.families,
+                                  [](const auto& a, const auto& b) { return a.first == b.first; });
+    });
 }
 
 }  // namespace
@@ -121,7 +133,7 @@ std::optional<CostReport> read_costs(std::string_view text, std::string& why)
               rows->is_array();
     if (ok)
         for (const json& row : *rows) ok = ok && read(row, report.rows.emplace_back());
-    if (ok) return report;
+    if (ok && is_even(report)) return report;
     why = "it is damaged";
     return std::nullopt;
 }

@@ -27,25 +27,25 @@ std::string percent_of(double fraction)
     return fmt::format("{} %", short_number(100 * fraction));
 }
 
-double cycles_of(const Trade& trade, const Candidate& candidate, std::size_t family)
+double cycles_of(const Trade& trade, const Candidate& candidate, Family family)
 {
-    const analyze::Cost& cost = trade.cost_of(candidate);
-    return family < cost.families.size() ? cost.families[family].issue
-                                         : std::numeric_limits<double>::infinity();
+    return trade.cost_of(candidate).families.contains(family)
+               ? issue_on(trade.cost_of(candidate), family)
+               : std::numeric_limits<double>::infinity();
 }
 
-bool is_shown(const Trade& trade, std::size_t index, std::size_t family)
+bool is_shown(const Trade& trade, std::size_t index, Family family)
 {
     const Candidate& candidate = trade.candidates[index];
     return index == 0 || candidate.spelling == optimize::Spelling::naive ||
-           family >= candidate.standing.size() || candidate.standing[family].on_frontier;
+           !candidate.standing.contains(family) || candidate.standing.at(family).on_frontier;
 }
 
-std::string standing_of(const Trade& trade, const Candidate& candidate, std::size_t family)
+std::string standing_of(const Trade& trade, const Candidate& candidate, Family family)
 {
-    if (candidate.spelling == optimize::Spelling::naive || family >= candidate.standing.size())
+    if (candidate.spelling == optimize::Spelling::naive || !candidate.standing.contains(family))
         return candidate.note;
-    const Standing& standing = candidate.standing[family];
+    const Standing& standing = candidate.standing.at(family);
     std::string text;
     if (standing.on_frontier)
         text = "frontier";
@@ -64,9 +64,8 @@ std::string not_finite(const Deviation& total)
 
 }  // namespace
 
-Table trade_table(const Trade& trade, Family on, bool all)
+Table trade_table(const Trade& trade, Family family, bool all)
 {
-    const auto family = static_cast<std::size_t>(on);
     Table table;
     table.columns = {{"", true},
                      {"form; spelling; format"},
@@ -76,7 +75,7 @@ Table trade_table(const Trade& trade, Family on, bool all)
                      {"99 %", true},
                      {"median", true},
                      {"codes", true},
-                     {std::string{analyze::name(on)}, true},
+                     {std::string{analyze::name(family)}, true},
                      {"regs", true},
                      {""}};
     std::vector<std::size_t> order;
@@ -87,11 +86,11 @@ Table trade_table(const Trade& trade, Family on, bool all)
     for (const std::size_t i : order) {
         const Candidate& candidate = trade.candidates[i];
         const bool best =
-            family < candidate.standing.size() && candidate.standing[family].on_frontier;
+            candidate.standing.contains(family) && candidate.standing.at(family).on_frontier;
         const Style style = best ? Style::strong : Style::plain;
         const analyze::Cost& cost = trade.cost_of(candidate);
         const bool finite = candidate.total.not_finite == 0;
-        const bool has_cost = family < cost.families.size();
+        const bool has_cost = cost.families.contains(family);
         table.rows.push_back(
             {{std::to_string(i + 1), Style::faint},
              {describe(candidate), style},
@@ -102,8 +101,8 @@ Table trade_table(const Trade& trade, Family on, bool all)
              {percent_of(candidate.total.often)},
              {percent_of(candidate.total.typical)},
              {fmt::format("{:.1f}", candidate.total.codes)},
-             {has_cost ? fmt::format("{:.1f}", cost.families[family].issue) : "-", style},
-             {has_cost ? std::to_string(cost.families[family].vgprs) : "-"},
+             {has_cost ? fmt::format("{:.1f}", cost.families.at(family).issue) : "-", style},
+             {has_cost ? std::to_string(cost.families.at(family).vgprs) : "-"},
              {standing_of(trade, candidate, family), best ? Style::good : Style::faint}});
     }
     return table;

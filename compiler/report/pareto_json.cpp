@@ -25,9 +25,8 @@ ordered_json to_json(const analyze::Deviation& deviation)
 ordered_json to_json(const analyze::Cost& cost)
 {
     ordered_json out = ordered_json::object();
-    for (std::size_t i = 0; i < cost.families.size(); ++i) {
-        const analyze::FamilyCost& at = cost.families[i];
-        out[std::string{analyze::name(analyze::all_families[i])}] = {
+    for (const auto& [family, at] : cost.families)
+        out[std::string{analyze::name(family)}] = {
             {"issue_cycles", json_number(at.issue)},
             {"valu", json_number(at.valu)},
             {"transcendental", json_number(at.transcendental)},
@@ -35,18 +34,17 @@ ordered_json to_json(const analyze::Cost& cost)
             {"latency", json_number(at.latency)},
             {"vgprs", at.vgprs},
             {"waves", at.waves}};
-    }
     out["spirv_instructions"] = cost.spirv_instructions;
     return out;
 }
 
-ordered_json to_json(const std::vector<analyze::Standing>& standings)
+ordered_json to_json(const std::map<analyze::Family, analyze::Standing>& standings)
 {
     ordered_json out = ordered_json::object();
-    for (std::size_t i = 0; i < standings.size(); ++i) {
-        ordered_json& at = out[std::string{analyze::name(analyze::all_families[i])}];
-        at["on_frontier"] = standings[i].on_frontier;
-        if (standings[i].dominated_by) at["dominated_by"] = *standings[i].dominated_by + 1;
+    for (const auto& [family, standing] : standings) {
+        ordered_json& at = out[std::string{analyze::name(family)}];
+        at["on_frontier"] = standing.on_frontier;
+        if (standing.dominated_by) at["dominated_by"] = *standing.dominated_by + 1;
     }
     return out;
 }

@@ -14,7 +14,8 @@ using analyze::Trade;
 
 bool is_anywhere_on_a_frontier(const Candidate& candidate)
 {
-    return std::ranges::any_of(candidate.standing, &analyze::Standing::on_frontier);
+    return std::ranges::any_of(candidate.standing,
+                               [](const auto& at) { return at.second.on_frontier; });
 }
 
 /// The definition as it ships comes first; the naive spelling shows what care costs.
@@ -45,7 +46,7 @@ Table candidate_table(const Trade& trade)
     table.columns.push_back({"registers", true});
     table.columns.push_back({"SPIR-V", true});
     table.columns.push_back({"on RDNA2"});
-    constexpr auto judged_on = static_cast<std::size_t>(analyze::Family::rdna2);
+    constexpr analyze::Family judged_on = analyze::Family::rdna2;
     for (std::size_t i = 0; i < trade.candidates.size(); ++i) {
         if (!is_shown(trade, i)) continue;
         const Candidate& candidate = trade.candidates[i];
@@ -66,20 +67,20 @@ Table candidate_table(const Trade& trade)
             row.push_back({percent_of(candidate.total.scaled)});
         row.push_back({percent_of(candidate.total.often)});
         row.push_back({short_number(candidate.total.codes)});
-        for (std::size_t family = 0; family < analyze::all_families.size(); ++family) {
-            const bool has = family < cost.families.size();
-            const bool best =
-                family < candidate.standing.size() && candidate.standing[family].on_frontier;
-            row.push_back({has ? short_number(cost.families[family].issue) : "-",
-                           best ? Style::strong : Style::plain});
+        for (const analyze::Family family : analyze::all_families) {
+            const auto standing = candidate.standing.find(family);
+            const bool best = standing != candidate.standing.end() && standing->second.on_frontier;
+            row.push_back(
+                {cost.families.contains(family) ? short_number(issue_on(cost, family)) : "-",
+                 best ? Style::strong : Style::plain});
         }
-        row.push_back({judged_on < cost.families.size()
-                           ? std::to_string(cost.families[judged_on].vgprs)
+        row.push_back({cost.families.contains(judged_on)
+                           ? std::to_string(cost.families.at(judged_on).vgprs)
                            : "-"});
         row.push_back({std::to_string(cost.spirv_instructions)});
         std::string standing = candidate.note;
-        if (judged_on < candidate.standing.size()) {
-            const analyze::Standing& at = candidate.standing[judged_on];
+        if (candidate.standing.contains(judged_on)) {
+            const analyze::Standing& at = candidate.standing.at(judged_on);
             if (at.on_frontier)
                 standing = "frontier";
             else if (at.dominated_by)

@@ -10,11 +10,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace lobe::report {
 namespace {
 
 using analyze::Candidate;
+using analyze::Family;
 using analyze::Trade;
 
 constexpr double panel_width = 250, panel_height = 190;
@@ -34,11 +36,17 @@ struct ErrorAxis {
     }
 };
 
-double cost_of(const Trade& trade, const Candidate& candidate, std::size_t family)
+double cost_of(const Trade& trade, const Candidate& candidate, Family family)
 {
     const analyze::Cost& cost = trade.cost_of(candidate);
-    return family < cost.families.size() ? cost.families[family].issue
-                                         : std::numeric_limits<double>::quiet_NaN();
+    return cost.families.contains(family) ? issue_on(cost, family)
+                                          : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool is_on_frontier(const Candidate& candidate, Family family)
+{
+    const auto found = candidate.standing.find(family);
+    return found != candidate.standing.end() && found->second.on_frontier;
 }
 
 ErrorAxis axis_of(const Trade& trade)
@@ -98,11 +106,11 @@ std::string_view closing(analyze::Format format)
     return "</path>";
 }
 
-std::string hover(const Trade& trade, std::size_t index, std::size_t family)
+std::string hover(const Trade& trade, std::size_t index, Family family)
 {
     const Candidate& candidate = trade.candidates[index];
     const analyze::Cost& cost = trade.cost_of(candidate);
-    const analyze::FamilyCost& at = cost.families[family];
+    const analyze::FamilyCost& at = cost.families.at(family);
     std::string text = fmt::format(
         "{}: {}\n{} issue cycles ({} vector, {} transcendental), {} registers\nworst error {}: "
         "model {}, rounding {}; 99 % of points below {}; {} of 255 codes",
@@ -113,8 +121,8 @@ std::string hover(const Trade& trade, std::size_t index, std::size_t family)
     if (candidate.total.not_finite > 0)
         text += fmt::format("\nnot a number at {} of {} points",
                             grouped(candidate.total.not_finite), grouped(candidate.total.points));
-    if (family < candidate.standing.size())
-        if (const auto by = candidate.standing[family].dominated_by)
+    if (const auto found = candidate.standing.find(family); found != candidate.standing.end())
+        if (const auto by = found->second.dominated_by)
             text += fmt::format("\ndominated by {}: {}", *by + 1,
                                 analyze::describe(trade.candidates[*by]));
     return text;
@@ -122,7 +130,7 @@ std::string hover(const Trade& trade, std::size_t index, std::size_t family)
 
 class Panel {
 public:
-    Panel(const Trade& trade, std::size_t family, const ErrorAxis& axis, double x, double y)
+    Panel(const Trade& trade, Family family, const ErrorAxis& axis, double x, double y)
         : trade_{trade}, family_{family}, axis_{axis}, x_{x}, y_{y}
     {
         for (const Candidate& candidate : trade.candidates)
@@ -134,9 +142,8 @@ public:
 
     std::string draw() const
     {
-        std::string out =
-            fmt::format("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x_, y_ - 10,
-                        escaped_xml(analyze::title(analyze::all_families[family_])));
+        std::string out = fmt::format("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+                                      x_, y_ - 10, escaped_xml(analyze::title(family_)));
         for (int decade = axis_.low; decade <= axis_.high; ++decade)
             out += fmt::format("<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" "
                                "y2=\"{2:.1f}\"/><text class=\"n\" x=\"{3:.1f}\" y=\"{4:.1f}\">"
@@ -167,9 +174,7 @@ private:
     {
         std::vector<std::size_t> out;
         for (std::size_t i = 0; i < trade_.candidates.size(); ++i)
-            if (family_ < trade_.candidates[i].standing.size() &&
-                trade_.candidates[i].standing[family_].on_frontier)
-                out.push_back(i);
+            if (is_on_frontier(trade_.candidates[i], family_)) out.push_back(i);
         std::ranges::stable_sort(out, {}, [this](std::size_t i) {
             return cost_of(trade_, trade_.candidates[i], family_);
         });
@@ -198,8 +203,7 @@ private:
             const Candidate& candidate = trade_.candidates[i];
             const double cost = cost_of(trade_, candidate, family_);
             if (!std::isfinite(cost)) continue;
-            const bool on_frontier =
-                family_ < candidate.standing.size() && candidate.standing[family_].on_frontier;
+            const bool on_frontier = is_on_frontier(candidate, family_);
             const double x = column(cost), y = row(trade_.error_of(candidate));
             std::string& out = on_frontier ? front : back;
             out += fmt::format("<g class=\"{}{}\">{}<title>{}</title>{}", kind_of(candidate),
@@ -233,7 +237,7 @@ private:
     }
 
     const Trade& trade_;
-    std::size_t family_;
+    Family family_;
     ErrorAxis axis_;
     double x_;
     double y_;
@@ -273,11 +277,11 @@ struct Picture {
 
 Picture draw(const Trade& trade)
 {
-    std::size_t families = 0;
+    std::set<Family> families;
     for (const Candidate& candidate : trade.candidates)
-        families = std::max(families, trade.cost_of(candidate).families.size());
+        for (const auto& cost : trade.cost_of(candidate).families) families.insert(cost.first);
     Picture out;
-    if (families == 0) return out;
+    if (families.empty()) return out;
     const ErrorAxis axis = axis_of(trade);
     const auto place = [](std::size_t panel) {
         const auto column = static_cast<double>(panel % columns);
@@ -285,11 +289,12 @@ Picture draw(const Trade& trade)
         return std::pair{left + column * (panel_width + left + right),
                          top + line * (panel_height + below + between / 2)};
     };
-    for (std::size_t family = 0; family < families; ++family) {
-        const auto [x, y] = place(family);
+    std::size_t panels = 0;
+    for (const Family family : families) {
+        const auto [x, y] = place(panels++);
         out.body += Panel{trade, family, axis, x, y}.draw();
     }
-    const auto [x, y] = place(families);
+    const auto [x, y] = place(panels);
     out.body += legend(x, y + 10);
     out.width = columns * (left + panel_width + right);
     out.height = y + panel_height + below;

@@ -107,9 +107,7 @@ TEST_CASE("an operation more costs an instruction more, and no more than it", "[
     const Costs costs = measure(each_function(module));
     for (const Family family : all_families) {
         INFO(name(family));
-        const auto of = [&](std::size_t i) {
-            return costs.costs[i].families[static_cast<std::size_t>(family)];
-        };
+        const auto of = [&](std::size_t i) { return costs.costs[i].families.at(family); };
         CHECK(of(0).valu == 1);
         CHECK(of(1).valu == 2);
         CHECK(of(2).valu == 2);  // the addition joins the multiplication
@@ -153,11 +151,10 @@ TEST_CASE("packed half does two evaluations with one instruction where there is 
     const Costs costs = measure(each_function(module, Format::packed16));
     for (const Family family : {Family::gcn5, Family::rdna1, Family::rdna2, Family::rdna3}) {
         INFO(name(family));
-        const auto index = static_cast<std::size_t>(family);
-        CHECK(costs.costs[0].families[index].valu == 0.5);
-        CHECK(costs.costs[1].families[index].valu == 1);
+        CHECK(costs.costs[0].families.at(family).valu == 0.5);
+        CHECK(costs.costs[1].families.at(family).valu == 1);
         // There is no packed exp2.
-        CHECK(costs.costs[3].families[index].transcendental == 1);
+        CHECK(costs.costs[3].families.at(family).transcendental == 1);
     }
 }
 
@@ -175,7 +172,7 @@ TEST_CASE("what functions share is paid for once, and from vectors fields are pa
     for (const Family family : all_families) {
         INFO(name(family));
         // One sum, its product, and the fused one: 3 of 2 + 2.
-        CHECK(costs.costs[0].families[static_cast<std::size_t>(family)].valu == 3);
+        CHECK(costs.costs[0].families.at(family).valu == 3);
         CHECK(issue_on(costs.costs[1], family) < issue_on(costs.costs[2], family));
         CHECK(issue_on(costs.costs[3], family) > 0);
     }
@@ -207,10 +204,10 @@ TEST_CASE("costs do not depend on the number of threads, and are kept", "[cost]"
     CHECK(kept.size() == entries);
     const Costs third = measure(each_function(module), {}, 0);
     for (std::size_t i = 0; i < first.costs.size(); ++i)
-        for (std::size_t family = 0; family < all_families.size(); ++family)
+        for (const Family family : all_families)
             for (const Costs* other : {&second, &third}) {
-                const FamilyCost& a = first.costs[i].families[family];
-                const FamilyCost& b = other->costs[i].families[family];
+                const FamilyCost& a = first.costs[i].families.at(family);
+                const FamilyCost& b = other->costs[i].families.at(family);
                 CHECK(a.valu == b.valu);
                 CHECK(a.transcendental == b.transcendental);
                 CHECK(a.inverse_throughput == b.inverse_throughput);
@@ -220,7 +217,34 @@ TEST_CASE("costs do not depend on the number of threads, and are kept", "[cost]"
 
     // What does not read as statistics is as if it were not there.
     for (auto& [key, value] : kept) value = "rubbish";
-    CHECK(measure(each_function(module), store).costs[1].families[3].valu == 2);
+    CHECK(measure(each_function(module), store).costs[1].families.at(Family::rdna2).valu == 2);
+}
+
+TEST_CASE("only the families that are asked for are measured", "[cost]")
+{
+    const ir::Module module = ladder();
+    const auto subjects = each_function(module);
+    std::size_t asked = 0;
+    std::mutex mutex;
+    Store store;
+    store.save = [&](std::string_view key, std::string_view) {
+        const std::lock_guard lock{mutex};
+        if (key.starts_with("statistics")) ++asked;
+    };
+    CostOptions options;
+    options.families = {Family::rdna3};
+    const Costs some = measure_costs(subjects, {}, options, store);
+    REQUIRE(some.no_statistics.empty());
+    const std::size_t of_one = std::exchange(asked, 0);
+    const Costs all = measure(subjects, store);
+    CHECK(of_one > 0);
+    CHECK(asked == all_families.size() * of_one);
+    CHECK(some.driver == all.driver);
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
+        REQUIRE(some.costs[i].families.size() == 1);
+        CHECK(issue_on(some.costs[i], Family::rdna3) == issue_on(all.costs[i], Family::rdna3));
+        CHECK(issue_on(some.costs[i], Family::gcn4) == 0);
+    }
 }
 
 TEST_CASE("without a driver there are SPIR-V counts and a reason", "[cost]")

@@ -22,7 +22,7 @@ using optimize::Spelling;
 namespace {
 
 constexpr double half_ulp = 0x1p-24;  // of a float near 1
-constexpr std::size_t rdna2 = static_cast<std::size_t>(Family::rdna2);
+constexpr Family rdna2 = Family::rdna2;
 
 struct Checked {
     Sources sources;
@@ -67,10 +67,9 @@ analyze::Costs counted(std::span<const analyze::CostSubject> subjects)
         analyze::Cost& cost = out.costs.emplace_back();
         const analyze::Spelled spelled{*subject.module, subject.functions};
         const double cycles = cycles_of(analyze::tape_of(spelled));
-        cost.families.resize(analyze::all_families.size());
-        for (std::size_t i = 0; i < cost.families.size(); ++i)
-            cost.families[i].issue =
-                (i < 2 ? 4 * cycles : cycles) * (subject.format == Format::packed16 ? 0.5 : 1);
+        for (const analyze::Family family : analyze::all_families)
+            cost.families[family].issue = (family < analyze::Family::rdna1 ? 4 * cycles : cycles) *
+                                          (subject.format == Format::packed16 ? 0.5 : 1);
     }
     return out;
 }
@@ -113,8 +112,8 @@ Candidate made(double cycles, double error)
     out.total.scaled = error;
     out.total.points = 100;
     out.spelling = Spelling::stable;
-    out.cost.families.resize(analyze::all_families.size());
-    for (analyze::FamilyCost& cost : out.cost.families) cost.issue = cycles;
+    for (const analyze::Family family : analyze::all_families)
+        out.cost.families[family].issue = cycles;
     return out;
 }
 
@@ -233,7 +232,7 @@ TEST_CASE("what is dominated names the cheapest that does it")
     trade.candidates[5].spelling = Spelling::naive;  // dominates nothing
     trade.candidates[6].total.not_finite = 1;        // and neither does what is not finite
     analyze::judge(trade);
-    const auto standing = [&](std::size_t i) { return trade.candidates[i].standing[rdna2]; };
+    const auto standing = [&](std::size_t i) { return trade.candidates[i].standing.at(rdna2); };
     CHECK(standing(0).on_frontier);
     CHECK(standing(1).on_frontier);
     CHECK(standing(2).dominated_by == 1);
@@ -286,11 +285,11 @@ Trade joint(const ir::Module& module, const analyze::ParetoOptions& options,
 }
 
 /// Of what is off by no more than there is.
-std::map<std::string, double> frontier_of(const Trade& trade, std::size_t family)
+std::map<std::string, double> frontier_of(const Trade& trade, Family family)
 {
     std::map<std::string, double> out;
     for (const Candidate& candidate : trade.candidates)
-        if (candidate.standing[family].on_frontier && trade.error_of(candidate) <= 1)
+        if (candidate.standing.at(family).on_frontier && trade.error_of(candidate) <= 1)
             out[describe(candidate)] = trade.error_of(candidate);
     return out;
 }
@@ -306,7 +305,7 @@ TEST_CASE("no joint choice on a frontier is missed by what is not measured")
     const Trade all = joint(*checked.module, options);
     CAPTURE(searched.search);
     CHECK(searched.candidates.size() < all.candidates.size());
-    for (std::size_t family = 0; family < analyze::all_families.size(); ++family)
+    for (const analyze::Family family : analyze::all_families)
         CHECK(frontier_of(searched, family) == frontier_of(all, family));
     CHECK(frontier_of(all, rdna2).size() > 5);
     // The error of what nobody changed is float's alone.
@@ -350,6 +349,6 @@ TEST_CASE("equal questions have equal answers on any number of threads, and agai
             CHECK(a.model.typical == b.model.typical);
             CHECK(a.rounding.root_mean_square == b.rounding.root_mean_square);
             CHECK(a.total.at == b.total.at);
-            CHECK(a.standing[rdna2].dominated_by == b.standing[rdna2].dominated_by);
+            CHECK(a.standing.at(rdna2).dominated_by == b.standing.at(rdna2).dominated_by);
         }
 }

@@ -18,13 +18,13 @@ CostRow row(const std::string& name, double issue, bool whole_model = false)
     CostRow out{"toy", name, whole_model, "stable", "float", {}};
     for (std::size_t i = 0; i < analyze::all_families.size(); ++i) {
         const double more = static_cast<double>(i);
-        out.cost.families.push_back({.valu = issue - 1,
-                                     .transcendental = 1,
-                                     .issue = issue + more,
-                                     .inverse_throughput = 2 * issue,
-                                     .latency = 5 * issue,
-                                     .vgprs = 8,
-                                     .waves = 16});
+        out.cost.families[analyze::all_families[i]] = {.valu = issue - 1,
+                                                       .transcendental = 1,
+                                                       .issue = issue + more,
+                                                       .inverse_throughput = 2 * issue,
+                                                       .latency = 5 * issue,
+                                                       .vgprs = 8,
+                                                       .waves = 16};
     }
     out.cost.spirv_instructions = static_cast<int>(issue) + 2;
     return out;
@@ -151,13 +151,13 @@ TEST_CASE("changes are told like a shader database tells them", "[cost]")
 
     // Of several families one is enough.
     now = sample();
-    now.rows[0].cost.families[0].issue = 7;
+    now.rows[0].cost.families[Family::gcn4].issue = 7;
     CHECK_FALSE(report::compare(before, now, one).regressed(0));
     CHECK(report::compare(before, now, two).regressed(0.1));
 
     // What cost nothing and costs something is worse by any share.
     CostReport nothing = sample();
-    nothing.rows[0].cost.families[3].issue = 0;
+    nothing.rows[0].cost.families[Family::rdna2].issue = 0;
     CHECK(report::compare(nothing, before, one).regressed(1e9));
 }
 

@@ -12,14 +12,14 @@ namespace {
 analyze::Cost cost(double issue)
 {
     analyze::Cost out;
-    for (std::size_t i = 0; i < analyze::all_families.size(); ++i)
-        out.families.push_back({.valu = issue - 1,
+    for (const analyze::Family family : analyze::all_families)
+        out.families[family] = {.valu = issue - 1,
                                 .transcendental = 1,
-                                .issue = issue * (i < 2 ? 4 : 1),
+                                .issue = issue * (family < analyze::Family::rdna1 ? 4 : 1),
                                 .inverse_throughput = 2 * issue,
                                 .latency = 5 * issue,
                                 .vgprs = 16,
-                                .waves = 16});
+                                .waves = 16};
     out.spirv_instructions = static_cast<int>(issue);
     return out;
 }
@@ -33,8 +33,8 @@ analyze::Candidate candidate(std::string form, double issue, double error, bool 
     out.model.scaled = error;
     out.total.scaled = out.total.often = error;
     out.total.points = 100;
-    out.standing.assign(analyze::all_families.size(),
-                        {.on_frontier = on_frontier, .dominated_by = {}});
+    for (const analyze::Family family : analyze::all_families)
+        out.standing[family] = {.on_frontier = on_frontier, .dominated_by = {}};
     return out;
 }
 
@@ -47,7 +47,7 @@ analyze::Trade sample()
     trade.candidates = {candidate("", 8, 1e-7, true),
                         candidate("spherical_gaussian", 5, 4e-3, true),
                         candidate("worse", 9, 1e-2, false)};
-    for (analyze::Standing& standing : trade.candidates[2].standing) standing.dominated_by = 0;
+    for (auto& at : trade.candidates[2].standing) at.second.dominated_by = 0;
     return trade;
 }
 

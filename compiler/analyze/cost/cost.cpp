@@ -20,8 +20,6 @@ namespace {
 using device::ChipCompiler;
 using device::ShaderStatistics;
 
-constexpr std::size_t family_count = all_families.size();
-
 /// As the driver calls them; a chip that was renamed has two spellings.
 std::vector<std::string> chips(Family family)
 {
@@ -72,10 +70,10 @@ std::optional<ChainStatistics> to_statistics(std::string_view text)
 
 // ---- the measurement
 
-/// One thing to put into chains, and what each family's driver says of it.
+/// One thing to put into chains, and what the driver of each family that is asked says of it.
 struct Job {
     Chain chain;
-    std::array<std::optional<ChainStatistics>, family_count> statistics;
+    std::vector<std::optional<ChainStatistics>> statistics;
 };
 
 class Measurement {
@@ -119,18 +117,21 @@ private:
     {
         add_links();
         done_ = 0;
-        total_ = jobs_.size() * family_count;
+        const std::size_t families = options_.families.size();
+        for (Job& job : jobs_) job.statistics.resize(families);
+        total_ = jobs_.size() * families;
         // The compilers work in processes of their own, the threads here only wait for them.
-        const unsigned threads = options_.jobs == 0 ? family_count : options_.jobs;
-        std::array<std::string, family_count> failures;
-        std::array<std::string, family_count> drivers;
-        for_each_task(family_count, threads, [&](std::size_t family) {
+        const unsigned threads =
+            options_.jobs == 0 ? static_cast<unsigned>(families) : options_.jobs;
+        std::vector<std::string> failures(families);
+        std::vector<std::string> drivers(families);
+        for_each_task(families, threads, [&](std::size_t family) {
             failures[family] = measure_family(family, drivers[family]);
         });
         const auto failed =
             std::ranges::find_if(failures, [](const std::string& why) { return !why.empty(); });
         if (failed != failures.end()) out_.no_statistics = *failed;
-        out_.driver = drivers.front();
+        if (!drivers.empty()) out_.driver = drivers.front();
         for (std::size_t i = 0; i < subjects_.size(); ++i) conclude(i);
     }
 
@@ -161,15 +162,16 @@ private:
     }
 
     /// Why it failed; empty on success.
-    std::string measure_family(std::size_t family, std::string& driver)
+    std::string measure_family(std::size_t which, std::string& driver)
     {
+        const Family family = options_.families[which];
         std::string why;
-        auto compiler = ChipCompiler::open(chips(all_families[family]), why);
+        auto compiler = ChipCompiler::open(chips(family), why);
         if (!compiler) return why;
         driver = compiler->driver();
         for (Job& job : jobs_) {
-            job.statistics[family] = statistics_of(job.chain, *compiler, why);
-            step(title(all_families[family]));
+            job.statistics[which] = statistics_of(job.chain, *compiler, why);
+            step(title(family));
         }
         return why;
     }
@@ -198,25 +200,26 @@ private:
         return statistics;
     }
 
-    /// The cost of a subject on all families, if all have answered.
+    /// The cost of a subject on the families that are asked for, if all have answered.
     void conclude(std::size_t subject)
     {
         const Chain& chain = jobs_[subject].chain;
-        std::vector<FamilyCost> costs;
-        for (std::size_t family = 0; family < family_count; ++family) {
-            const auto& statistics = jobs_[subject].statistics[family];
+        std::map<Family, FamilyCost> costs;
+        for (std::size_t which = 0; which < options_.families.size(); ++which) {
+            const auto& statistics = jobs_[subject].statistics[which];
             const auto link = [&](int numbers, int exponent) -> std::optional<Slope> {
                 const Job& job = jobs_[links_.at({chain.format, numbers, exponent})];
-                if (!job.statistics[family]) return std::nullopt;
-                return slope(*job.statistics[family], job.chain.copies);
+                if (!job.statistics[which]) return std::nullopt;
+                return slope(*job.statistics[which], job.chain.copies);
             };
             const auto squares = link(results_of(chain), 2);
             const auto cubes = link(results_of(chain), 3);
             const auto square = link(1, 2);
             const auto product = link(2, 1);
             if (!statistics || !squares || !cubes || !square || !product) return;
-            costs.push_back(family_cost(all_families[family], chain, *statistics,
-                                        {*squares, *cubes, *square, *product}));
+            const Family family = options_.families[which];
+            costs[family] =
+                family_cost(family, chain, *statistics, {*squares, *cubes, *square, *product});
         }
         out_.costs[subject].families = std::move(costs);
     }
@@ -276,8 +279,8 @@ Costs measure_costs(std::span<const CostSubject> subjects, const Sources& source
 
 double issue_on(const Cost& cost, Family family)
 {
-    const auto index = static_cast<std::size_t>(family);
-    return index < cost.families.size() ? cost.families[index].issue : 0;
+    const auto found = cost.families.find(family);
+    return found == cost.families.end() ? 0 : found->second.issue;
 }
 
 }  // namespace lobe::analyze

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -54,7 +55,7 @@ struct FamilyCost {
 };
 
 struct Cost {
-    std::vector<FamilyCost> families;          ///< in the order of all_families; or empty
+    std::map<Family, FamilyCost> families;     ///< of those that were asked for; or empty
     int spirv_instructions = 0;                ///< arithmetic per component, after spirv-opt -O
     std::optional<double> device_nanoseconds;  ///< of one evaluation on the device
     std::optional<double> tape_nanoseconds;    ///< of one evaluation on one core
@@ -70,7 +71,8 @@ struct CostSubject {
 };
 
 struct CostOptions {
-    bool statistics = true;    ///< of the driver, per family
+    bool statistics = true;  ///< of the driver, per family
+    std::vector<Family> families{all_families.begin(), all_families.end()};  ///< of these
     bool nanoseconds = false;  ///< really run; never kept in the store
     std::string device;        ///< for nanoseconds; see device::Device::open
     unsigned jobs = 0;
@@ -89,7 +91,7 @@ struct Costs {
 Costs measure_costs(std::span<const CostSubject> subjects, const Sources& sources,
                     const CostOptions& options, const Store& store);
 
-/// The number by which a choice is judged on a family: issue cycles.
+/// The number by which a choice is judged on a family: issue cycles. 0 where it was not measured.
 double issue_on(const Cost& cost, Family family);
 
 }  // namespace lobe::analyze

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <map>
 
 namespace lobe::analyze {
 namespace {
@@ -23,15 +23,14 @@ constexpr std::size_t batch = 48;
 constexpr double least_margin = 2;
 constexpr double margin_share = 0.04;
 
-constexpr auto rdna2 = static_cast<std::size_t>(Family::rdna2);
-using FamilyCycles = std::array<double, all_families.size()>;
+using FamilyCycles = std::map<Family, double>;
 
 class CostSearch {
 public:
     CostSearch(Trade& trade, const TradeSubject& subject, const Ledger& ledger,
                const ParetoOptions& options, const Measurer& measurer)
         : trade_{trade}, subject_{subject}, ledger_{ledger}, options_{options}, measurer_{measurer},
-          measured_(trade.candidates.size())
+          families_{options.cost.families}, measured_(trade.candidates.size())
     {
     }
 
@@ -55,12 +54,14 @@ public:
             measure(most_promising(left));
             learn();
         }
+        const Family told =
+            std::ranges::count(families_, Family::rdna2) > 0 ? Family::rdna2 : families_.front();
         const std::size_t count = of([this](std::size_t i) { return measured_[i]; }).size();
         std::string words = fmt::format(
             "costs of {}; every other one is off by more than 100 %, or dominated on every family "
             "by its estimate from single changes, also if that were {:.1f} cycles too high on "
-            "RDNA2; the worst of {} estimates that were measured was {:.1f} off",
-            count, margin_[rdna2], compared_, worst_[rdna2]);
+            "{}; the worst of {} estimates that were measured was {:.1f} off",
+            count, margin_[told], title(told), compared_, worst_[told]);
         keep_measured();
         return words;
     }
@@ -120,9 +121,9 @@ private:
         for (std::size_t i = 0; i < places.size(); ++i) *places[i] = std::move(costs.costs[i]);
     }
 
-    double issue(std::size_t candidate, std::size_t family) const
+    double issue(std::size_t candidate, Family family) const
     {
-        return trade_.cost_of(trade_.candidates[candidate]).families[family].issue;
+        return issue_on(trade_.cost_of(trade_.candidates[candidate]), family);
     }
 
     /// Of all candidates, from what single forms change in the same format.
@@ -134,7 +135,7 @@ private:
             const auto format = static_cast<std::size_t>(candidate.format);
             const std::size_t plain = ledger_({}, candidate.spelling) + format;
             const std::size_t stable = ledger_({}, optimize::Spelling::stable) + format;
-            for (std::size_t family = 0; family < all_families.size(); ++family) {
+            for (const Family family : families_) {
                 double cycles = issue(plain, family);
                 for (const auto& form : candidate.choice) {
                     const std::size_t one = ledger_({form}, optimize::Spelling::stable) + format;
@@ -143,7 +144,7 @@ private:
                 estimates_[i][family] = cycles;
             }
         }
-        for (std::size_t family = 0; family < all_families.size(); ++family)
+        for (const Family family : families_)
             margin_[family] = std::max(least_margin, margin_share * issue(0, family));
     }
 
@@ -156,11 +157,11 @@ private:
         for (std::size_t i = 0; i < trade_.candidates.size(); ++i) {
             if (!measured_[i] || trade_.candidates[i].choice.size() < 2) continue;
             ++compared_;
-            for (std::size_t family = 0; family < all_families.size(); ++family)
+            for (const Family family : families_)
                 worst_[family] =
                     std::max(worst_[family], std::abs(estimates_[i][family] - issue(i, family)));
         }
-        for (std::size_t family = 0; family < all_families.size(); ++family)
+        for (const Family family : families_)
             margin_[family] = std::max(margin_[family], 1.25 * worst_[family]);
     }
 
@@ -169,8 +170,8 @@ private:
     {
         const double error = trade_.error_of(trade_.candidates[i]);
         if (error > useless) return true;
-        for (std::size_t family = 0; family < all_families.size(); ++family) {
-            const double least = estimates_[i][family] - margin_[family];
+        for (const Family family : families_) {
+            const double least = estimates_[i].at(family) - margin_.at(family);
             bool dominated = false;
             for (std::size_t j = 0; j < trade_.candidates.size() && !dominated; ++j)
                 dominated = measured_[j] && trade_.error_of(trade_.candidates[j]) <= error &&
@@ -190,14 +191,14 @@ private:
         for (const std::size_t i : left) {
             const double error = trade_.error_of(trade_.candidates[i]);
             bool promising = false;
-            for (std::size_t family = 0; family < all_families.size() && !promising; ++family) {
-                const double cycles = estimates_[i][family];
-                promising = std::ranges::none_of(left, [&](std::size_t j) {
-                    const double its_error = trade_.error_of(trade_.candidates[j]);
-                    const double its_cycles = estimates_[j][family];
-                    return its_error <= error && its_cycles <= cycles &&
-                           (its_error < error || its_cycles < cycles);
-                });
+            for (const Family family : families_) {
+                const double cycles = estimates_[i].at(family);
+                promising = promising || std::ranges::none_of(left, [&](std::size_t j) {
+                                const double its_error = trade_.error_of(trade_.candidates[j]);
+                                const double its_cycles = estimates_[j].at(family);
+                                return its_error <= error && its_cycles <= cycles &&
+                                       (its_error < error || its_cycles < cycles);
+                            });
             }
             if (promising) result.push_back(i);
         }
@@ -217,10 +218,11 @@ private:
     const Ledger& ledger_;
     const ParetoOptions& options_;
     const Measurer& measurer_;
+    const std::vector<Family>& families_;
     std::vector<bool> measured_;
     std::vector<FamilyCycles> estimates_;
-    FamilyCycles margin_{};
-    FamilyCycles worst_{};
+    FamilyCycles margin_;
+    FamilyCycles worst_;
     std::size_t compared_ = 0;
     std::size_t done_ = 0;
 };

@@ -40,9 +40,10 @@ void put(std::string& text, const Deviation& d)
 void put(std::string& text, const Cost& cost)
 {
     text += fmt::format("{} {}", cost.spirv_instructions, cost.families.size());
-    for (const FamilyCost& at : cost.families)
-        text += fmt::format(" {} {} {} {} {} {} {}", at.valu, at.transcendental, at.issue,
-                            at.inverse_throughput, at.latency, at.vgprs, at.waves);
+    for (const auto& [family, at] : cost.families)
+        text += fmt::format(" {} {} {} {} {} {} {} {}", static_cast<int>(family), at.valu,
+                            at.transcendental, at.issue, at.inverse_throughput, at.latency,
+                            at.vgprs, at.waves);
     text += "\n";
 }
 
@@ -81,11 +82,15 @@ void Reader::take(Cost& out)
     sound_ = sound_ && words.take(out.spirv_instructions) && words.take(families) &&
              families <= all_families.size();
     if (!sound_) return;
-    out.families.resize(families);
-    for (FamilyCost& at : out.families)
-        sound_ = sound_ && words.take(at.valu) && words.take(at.transcendental) &&
-                 words.take(at.issue) && words.take(at.inverse_throughput) &&
-                 words.take(at.latency) && words.take(at.vgprs) && words.take(at.waves);
+    for (std::size_t i = 0; i < families && sound_; ++i) {
+        std::size_t family = 0;
+        sound_ = words.take(family) && family < all_families.size();
+        if (!sound_) return;
+        FamilyCost& at = out.families[all_families[family]];
+        sound_ = words.take(at.valu) && words.take(at.transcendental) && words.take(at.issue) &&
+                 words.take(at.inverse_throughput) && words.take(at.latency) &&
+                 words.take(at.vgprs) && words.take(at.waves);
+    }
 }
 
 std::string to_text(const Trade& trade)

@@ -215,41 +215,37 @@ Trade trade(const TradeSubject& subject, const FoundNames& found, const ParetoOp
 
 void judge(Trade& trade)
 {
-    for (Candidate& candidate : trade.candidates) {
-        candidate.standing.clear();
-        candidate.standing.resize(trade.cost_of(candidate).families.size());
-    }
-    const auto stands = [&trade](const Candidate& candidate, std::size_t family) {
-        return family < trade.cost_of(candidate).families.size() &&
+    const auto stands = [&trade](const Candidate& candidate, Family family) {
+        return trade.cost_of(candidate).families.contains(family) &&
                candidate.spelling != Spelling::naive && std::isfinite(trade.error_of(candidate));
     };
     for (std::size_t i = 0; i < trade.candidates.size(); ++i) {
         Candidate& one = trade.candidates[i];
         const double error = trade.error_of(one);
-        for (std::size_t family = 0; family < one.standing.size(); ++family) {
-            const double cost = trade.cost_of(one).families[family].issue;
+        one.standing.clear();
+        for (const auto& [family, measured] : trade.cost_of(one).families) {
+            const double cost = measured.issue;
             // Of those that dominate, the cheapest and among them the most accurate: nothing
             // dominates that one.
             std::optional<std::size_t> best;
             for (std::size_t j = 0; j < trade.candidates.size(); ++j) {
                 const Candidate& other = trade.candidates[j];
                 if (j == i || !stands(other, family)) continue;
-                const double its_cost = trade.cost_of(other).families[family].issue;
+                const double its_cost = issue_on(trade.cost_of(other), family);
                 const double its_error = trade.error_of(other);
                 const bool dominates = its_cost <= cost && its_error <= error &&
                                        (its_cost < cost || its_error < error);
                 if (!dominates) continue;
                 if (best) {
                     const Candidate& before = trade.candidates[*best];
-                    const double least = trade.cost_of(before).families[family].issue;
+                    const double least = issue_on(trade.cost_of(before), family);
                     if (its_cost > least ||
                         (its_cost == least && its_error >= trade.error_of(before)))
                         continue;
                 }
                 best = j;
             }
-            one.standing[family].dominated_by = best;
-            one.standing[family].on_frontier = !best && stands(one, family);
+            one.standing[family] = {!best && stands(one, family), best};
         }
     }
 }
