@@ -3,14 +3,14 @@
 namespace lobe::ir {
 namespace {
 
-/// New ids by old ones.
+/// New ids by old ones; no id for what is gone.
 class Moved {
 public:
-    explicit Moved(std::vector<std::size_t> places) : places_(std::move(places)) {}
+    explicit Moved(std::vector<FunctionId> places) : places_(std::move(places)) {}
 
     void operator()(FunctionId& id) const
     {
-        if (id.valid()) id = FunctionId{places_[id.index]};
+        if (id.valid()) id = places_[id.index];
     }
 
     /// The same expressions under the same ids: what was different before stays different.
@@ -51,8 +51,17 @@ public:
         for (auto& parameter : packing.parameters) (*this)(parameter.unpack);
     }
 
+    /// Everything of the module.
+    void operator()(Module& module) const
+    {
+        for (Function& function : module.functions) (*this)(function);
+        for (Effect& effect : module.effects) (*this)(effect.off_when);
+        for (Model& model : module.models) (*this)(model);
+        for (Packing& packing : module.packings) (*this)(packing);
+    }
+
 private:
-    std::vector<std::size_t> places_;
+    std::vector<FunctionId> places_;
 };
 
 }  // namespace
@@ -60,18 +69,29 @@ private:
 Module insert_functions(const Module& module, const std::vector<Insertion>& insertions)
 {
     Module result = without_functions(module);
-    std::vector<std::size_t> places;
+    std::vector<FunctionId> places;
     for (std::size_t i = 0; i < module.functions.size(); ++i) {
-        places.push_back(result.functions.size());
+        places.emplace_back(result.functions.size());
         result.functions.push_back(module.functions[i]);
         for (const Insertion& insertion : insertions)
             if (insertion.after == FunctionId{i}) result.functions.push_back(insertion.function);
     }
-    const Moved moved{std::move(places)};
-    for (Function& function : result.functions) moved(function);
-    for (Effect& effect : result.effects) moved(effect.off_when);
-    for (Model& model : result.models) moved(model);
-    for (Packing& packing : result.packings) moved(packing);
+    Moved{std::move(places)}(result);
+    return result;
+}
+
+Module keep_functions(const Module& module, const std::vector<bool>& kept)
+{
+    Module result = without_functions(module);
+    std::vector<FunctionId> places;
+    for (std::size_t i = 0; i < module.functions.size(); ++i) {
+        places.push_back(kept[i] ? FunctionId{result.functions.size()} : FunctionId{});
+        if (kept[i]) result.functions.push_back(module.functions[i]);
+    }
+    Moved{std::move(places)}(result);
+    for (Function& function : result.functions)
+        if (function.kind == Function::Kind::form && !function.form_of.valid())
+            function.kind = Function::Kind::term;
     return result;
 }
 

@@ -1,7 +1,7 @@
-// More functions for a module, in places of their own.
+// More functions for a module, in places of their own, or fewer.
 //
-// Functions are known by their place, callees first, so whoever adds one between others moves the
-// rest. Everything that names a function by its id follows.
+// Functions are known by their place, callees first, so whoever adds one between others, or takes
+// one away, moves the rest. Everything that names a function by its id follows.
 #pragma once
 
 #include "ir/module.h"
@@ -19,5 +19,9 @@ struct Insertion {
 
 /// The module with all of them; those behind the same function in their order.
 Module insert_functions(const Module& module, const std::vector<Insertion>& insertions);
+
+/// The module with these functions alone, by index. Nothing that stays names one that goes, but for
+/// a form its term: it is then a term itself.
+Module keep_functions(const Module& module, const std::vector<bool>& kept);
 
 }  // namespace lobe::ir

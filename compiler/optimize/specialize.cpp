@@ -79,15 +79,16 @@ AllTraffic observe_calls(const Module& module)
     return traffic;
 }
 
-Module fix_parameters(const Module& module, const Settings& settings)
+Module fix_inputs(const Module& module, const Settings& settings)
 {
     return rewrite(module, [&](Rebuild& rebuild) -> Step {
         return [&](ExprId id) {
             const Function& old = rebuild.old();
             if (old.graph[id].op != Op::input) return rebuild.copy(id);
             const Input& input = old.inputs[old.graph[id].aux];
-            if (input.origin != Origin::parameter) return rebuild.copy(id);
-            const auto found = settings.find(module.parameters[input.which].name);
+            if (input.origin != Origin::parameter && input.origin != Origin::surface)
+                return rebuild.copy(id);
+            const auto found = settings.find(input.name);
             if (found == settings.end() ||
                 static_cast<int>(found->second.size()) != components(input.type))
                 return rebuild.copy(id);
@@ -135,7 +136,7 @@ Module push_constants(const Module& module)
 Module specialize(const Module& module, const Settings& settings)
 {
     // A constant goes one call deeper per step, and steps past the deepest change nothing.
-    Module current = simplify(fix_parameters(module, settings));
+    Module current = simplify(fix_inputs(module, settings));
     for (std::size_t depth = 0; depth < module.functions.size(); ++depth) {
         Module next = simplify(push_constants(current));
         if (same_graphs(current, next)) return next;

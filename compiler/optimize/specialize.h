@@ -10,16 +10,16 @@
 
 namespace lobe::optimize {
 
-/// The values of some parameters, by name, one per component.
+/// The values of some parameters and surface fields, by name, one per component.
 using Settings = std::map<std::string, std::vector<double>>;
 
-/// The module with these parameters fixed, simplified. Fixed parameters are no inputs any more;
-/// constants reach the bodies of the functions they are passed to: where all callers pass the
-/// same, the argument vanishes, elsewhere the call is inlined. Comes before `optimize`.
+/// The module with these inputs fixed, simplified. Fixed ones are no inputs any more; constants
+/// reach the bodies of the functions they are passed to: where all callers pass the same, the
+/// argument vanishes, elsewhere the call is inlined. Comes before `optimize`.
 ///
 /// A value stands for the shortest decimal that reads back as it: 0.1 is one tenth, as it would
-/// be had the author written it. Names that are no parameters, and values of another size than
-/// the parameter's, are ignored by the module: the caller checks them.
+/// be had the author written it. Names that are no inputs, and values of another size than the
+/// input's, are ignored by the module: the caller checks them.
 ///
 /// `Module::parameters` and `Module::effects` stay as they are. The condition of an effect that
 /// the settings decide is a constant; `truth` (truth.h) reads it.

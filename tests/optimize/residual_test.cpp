@@ -1,0 +1,174 @@
+// A residual module is what a person would have written for that scene alone: nothing of what is
+// off, no parameter that nothing reads, packings of what is left.
+#include "build.h"
+#include "models.h"
+#include "optimize/inline.h"
+#include "optimize/legal.h"
+#include "optimize/optimize.h"
+#include "optimize/residual.h"
+#include "optimize/rewrite.h"
+#include "values.h"
+
+#include <algorithm>
+
+using namespace lobe;
+using namespace lobe::ir;
+using namespace lobe::tests;
+using optimize::Called;
+using optimize::Residual;
+using optimize::residual;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Module& callisto()
+{
+    static const Module module = read_model("../models/callisto.lobe");
+    return module;
+}
+
+/// Nothing is called for but these parameters, in these ranges, with their effects.
+Called only(const Module& module, const optimize::Limits& ranges, const Names& on)
+{
+    Called called;
+    called.ranges = ranges;
+    for (const Parameter& parameter : module.parameters)
+        if (!ranges.contains(parameter.name))
+            called.constants[parameter.name] = parameter.default_value;
+    for (const Effect& effect : module.effects)
+        if (std::ranges::count(on, effect.name) == 0) called.off.insert(effect.name);
+    return called;
+}
+
+Names names_of(const std::vector<Parameter>& parameters)
+{
+    Names names;
+    for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+    return names;
+}
+
+Names functions_of(const Module& module)
+{
+    Names names;
+    for (const Function& function : module.functions) names.push_back(function.name);
+    return names;
+}
+
+bool has(const Names& names, const std::string& name)
+{
+    return std::ranges::count(names, name) > 0;
+}
+
+int count(const Module& module, Op op)
+{
+    int found = 0;
+    for (const FunctionId id : module.reachable(module.roots()))
+        for (const ExprId expr : module[id].graph.ids())
+            found += module[id].graph[expr].op == op ? 1 : 0;
+    return found;
+}
+
+/// Whether two outputs compute the same expression of the same inputs.
+bool same_output(const Module& a, const std::string& x, const Module& b, const std::string& y)
+{
+    Function f = optimize::inline_calls(a, a.find(x).value());
+    const Function g = optimize::inline_calls(b, b.find(y).value());
+    f.name = g.name;
+    INFO(dump(f.graph) << "and\n" << dump(g.graph));
+    CHECK(optimize::same_function(f, g));
+    return optimize::same_function(f, g);
+}
+
+}  // namespace
+
+TEST_CASE("a scene that calls for nothing gets the base model that a person writes")
+{
+    const Residual left = residual(callisto(), only(callisto(), {}, {}), "callisto");
+    REQUIRE(verify(left.module).value_or("") == "");
+    CHECK(left.off.size() == callisto().effects.size());
+    CHECK(left.left.empty());
+    CHECK(left.fixed.empty());
+    CHECK(left.absent == names_of(callisto().parameters));
+    CHECK(left.module.effects.empty());
+    CHECK(left.module.packings.empty());
+    CHECK(left.module.engines.empty());
+    REQUIRE(left.module.models.size() == 1);
+    CHECK(left.module.models[0].name == "callisto");
+
+    const Module emitted = optimize::optimize(left.module);
+    CHECK_FALSE(optimize::illegal(emitted));
+    const Module base = optimize::optimize(read_model("data/residual/base.lobe"));
+    CHECK(same_output(emitted, "callisto_diffuse", base, "base_diffuse"));
+    CHECK(same_output(emitted, "callisto_specular", base, "base_specular"));
+}
+
+TEST_CASE("effects that are off take their parameters with them")
+{
+    const optimize::Limits ranges{{"retroreflection", {1, 8}}};
+    const Residual left =
+        residual(callisto(), only(callisto(), ranges, {"Retroreflection"}), "callisto");
+    REQUIRE(verify(left.module).value_or("") == "");
+    CHECK(left.left == Names{"retroreflection"});
+    CHECK(left.fixed == Names{"retroreflection_falloff", "retroreflection_tint",
+                              "retroreflection_tangent_falloff"});
+    CHECK(left.off ==
+          Names{"Diffuse Fresnel", "Smooth Terminator", "Specular Fresnel", "Dual Specular"});
+    REQUIRE(left.module.effects.size() == 1);
+    CHECK(left.module.effects[0].name == "Retroreflection");
+    CHECK(left.module.parameters.size() == callisto().parameters.size());
+    const Names functions = functions_of(left.module);
+    for (const char* gone : {"alpha_f", "alpha_s", "c2", "lambert_cos", "callisto_lambert_diffuse",
+                             "decode_diffuse_fresnel", "unpack_smooth_terminator"})
+        CHECK_FALSE(has(functions, gone));
+    for (const char* kept : {"alpha_r", "decode_retroreflection", "unpack_retroreflection"})
+        CHECK(has(functions, kept));
+
+    // 5 r(0.75) = 2.5 is two products and a root.
+    const Module emitted = optimize::optimize(left.module);
+    CHECK_FALSE(optimize::illegal(emitted));
+    CHECK(count(emitted, Op::power) == 0);
+    CHECK(count(emitted, Op::guarded_power) == 0);
+}
+
+TEST_CASE("a packing carries what is left, in the bits that it had")
+{
+    const optimize::Limits ranges{{"retroreflection", {1, 8}}, {"smooth_terminator", {0, 0.5}}};
+    const Residual left = residual(
+        callisto(), only(callisto(), ranges, {"Retroreflection", "Smooth Terminator"}), "callisto");
+    REQUIRE(verify(left.module).value_or("") == "");
+    REQUIRE(left.module.packings.size() == 1);
+    const Packing& packing = left.module.packings[0];
+    const Packing& before = callisto().packings[0];
+    REQUIRE(packing.fields.size() == 2);
+    CHECK(packing.channels.size() == 2);
+    CHECK(packing.parameters.size() == 2);
+    for (const Field& field : packing.fields) {
+        const auto same = std::ranges::find(before.fields, field.parameter, &Field::parameter);
+        REQUIRE(same != before.fields.end());
+        CHECK(field.slots == same->slots);
+        CHECK(left.module[field.decode].name == callisto()[same->decode].name);
+        CHECK(optimize::same_function(left.module[field.decode], callisto()[same->decode]));
+        CHECK(optimize::same_function(left.module[field.encode], callisto()[same->encode]));
+    }
+    // Any code may be read, so guards stay for all that codes mean.
+    CHECK(left.module.parameters[packing.fields[0].parameter].range ==
+          callisto().parameters[packing.fields[0].parameter].range);
+    REQUIRE(left.module.engines.size() == 1);
+    CHECK(left.module.engines[0].pins.size() == 1);
+    REQUIRE(left.module.engines[0].node);
+    CHECK(left.module.engines[0].node->parameters.size() == 1);
+    CHECK_FALSE(optimize::illegal(optimize::optimize(left.module)));
+}
+
+TEST_CASE("surface fields may be constants")
+{
+    Called called = only(callisto(), {}, {});
+    called.constants["roughness"] = {0.5};
+    called.constants["f0"] = {0.04, 0.04, 0.04};
+    const Residual left = residual(callisto(), called, "callisto");
+    REQUIRE(verify(left.module).value_or("") == "");
+    const Function& specular = left.module[left.module.find("callisto_specular").value()];
+    for (const Input& input : specular.inputs) CHECK(input.origin == Origin::geometry);
+    CHECK_FALSE(optimize::illegal(optimize::optimize(left.module)));
+}
