@@ -30,9 +30,14 @@ struct Limits {
     std::size_t file_bytes = std::size_t{1} << 30;  ///< of the file, and of each that it names
     std::size_t materials = 100'000;
     std::size_t nodes = 1'000'000;
-    std::size_t vertices = std::size_t{1} << 26;      ///< of all meshes together
+    std::size_t instances = std::size_t{1} << 22;  ///< primitives that nodes show
+    std::size_t vertices = std::size_t{1} << 25;   ///< of all meshes together
+    std::size_t triangles = std::size_t{1} << 26;  ///< likewise
+    /// Shown under scales that differ by axis, instances counted: each has to be measured.
+    std::size_t distorted_triangles = std::size_t{1} << 30;
     std::size_t image_texels = std::size_t{1} << 26;  ///< of one picture
-    std::size_t all_texels = std::size_t{1} << 28;
+    std::size_t all_texels = std::size_t{1} << 30;    ///< that are decoded
+    std::size_t kept_texels = std::size_t{1} << 28;   ///< of all pictures whose pixels are kept
 };
 
 /// The bytes of a file that the scene names, by its URI relative to the scene (percent-decoded), or

@@ -41,8 +41,10 @@ struct ChannelFacts {
 struct Image {
     std::string name;
     Pointer pointer;
-    std::optional<Pixels> pixels;          ///< none: not readable, see `why`
-    std::string why;                       ///< it could not be read; the channels are then full
+    std::optional<Pixels> pixels;  ///< none: not readable, see `why`
+    std::string why;               ///< it was not read; the channels are then full
+    int width = 0;                 ///< 0: not read
+    int height = 0;
     std::array<ChannelFacts, 4> channels;  ///< of the values as stored
     std::array<ChannelFacts, 3> linear;    ///< of the sRGB-decoded values of r, g, b
 };
