@@ -142,7 +142,9 @@ struct Environment {
     Pointer pointer;
     double intensity = 1;
     std::array<double, 4> rotation{0, 0, 0, 1};  ///< a quaternion, x y z w
-    /// Spherical harmonics of the irradiance, bands 0 to 2, RGB each.
+    /// Irradiance at the unit normal n is the sum of these times the real spherical harmonics Y(n)
+    /// of the world's axes, in the order (0,0) (1,-1) (1,0) (1,1) (2,-2) … (2,2): y is (1,-1), z
+    /// (1,0), x (1,1).
     std::array<Color, 9> irradiance{};
     /// Prefiltered cube maps: mips from the sharpest, six faces each (+x -x +y -y +z -z), indices
     /// into Scene::images. The pictures are RGBD: radiance is sRGB-decoded rgb over alpha.
