@@ -130,7 +130,9 @@ Scene read_scene(const View& root, std::optional<std::string_view> binary, const
         image.pointer = pointer;
         image.why = "this texture names no picture";
     }
-    scene.materials = read_materials(root, textures, options.limits);
+    auto materials = read_materials(root, textures, options.limits);
+    if (!materials) return scene;  // what refers to them would be wrong for no reason of its own
+    scene.materials = std::move(*materials);
     const std::vector<Light> lights = read_lights(root);
     const std::vector<Environment> environments = read_environments(root, image_count, textures);
     read_images(root, textures.used(), buffers, fetch, options, scene.images);

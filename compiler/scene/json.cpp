@@ -144,8 +144,10 @@ private:
 
 Pointer operator/(const Pointer& parent, std::string_view name)
 {
-    Pointer pointer = parent;
-    pointer.push_back('/');
+    Pointer pointer;
+    pointer.reserve(parent.size() + 1 + name.size());
+    pointer.append(parent).push_back('/');
+    if (name.find_first_of("~/") == name.npos) return pointer.append(name);
     for (const char character : name) {
         if (character == '~')
             pointer += "~0";

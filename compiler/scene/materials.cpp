@@ -142,7 +142,8 @@ Material default_material()
     return material;
 }
 
-std::vector<Material> read_materials(const View& root, Textures& textures, const Limits& limits)
+std::optional<std::vector<Material>> read_materials(const View& root, Textures& textures,
+                                                    const Limits& limits)
 {
     std::vector<Material> materials;
     const auto listed = root.array("materials");
@@ -150,7 +151,7 @@ std::vector<Material> read_materials(const View& root, Textures& textures, const
     if (listed->size() > limits.materials) {
         listed->error(fmt::format("{} materials are above the limit of {}", listed->size(),
                                   limits.materials));
-        return materials;
+        return std::nullopt;
     }
     materials.reserve(listed->size());
     for (std::size_t index = 0; index < listed->size(); ++index)

@@ -4,12 +4,14 @@
 
 #include "scene/textures.h"
 
+#include <optional>
 #include <vector>
 
 namespace lobe::scene {
 
-/// `materials` of the file.
-std::vector<Material> read_materials(const View& root, Textures& textures, const Limits& limits);
+/// `materials` of the file; nothing where there are too many.
+std::optional<std::vector<Material>> read_materials(const View& root, Textures& textures,
+                                                    const Limits& limits);
 /// What glTF gives a primitive that names none.
 Material default_material();
 

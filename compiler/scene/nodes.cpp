@@ -94,6 +94,7 @@ public:
         if (listed->size() > limits_.nodes) {
             listed->error(
                 fmt::format("{} nodes are above the limit of {}", listed->size(), limits_.nodes));
+            is_above_limit_ = true;
             return;
         }
         nodes_.resize(listed->size());
@@ -104,6 +105,7 @@ public:
 
     void read_scenes(const View& root)
     {
+        if (is_above_limit_) return;
         const auto listed = root.array("scenes");
         const std::size_t count = listed ? listed->size() : 0;
         const std::size_t shown = root.index("scene", count, "scenes").value_or(0);
@@ -255,6 +257,7 @@ private:
     Scene& scene_;
     std::vector<Camera> cameras_;
     std::vector<Node> nodes_;
+    bool is_above_limit_ = false;
     bool is_full_ = false;
 };
 

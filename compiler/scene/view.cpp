@@ -179,9 +179,8 @@ std::optional<View> View::array(std::string_view name) const
         expected(*found, "an array");
         return std::nullopt;
     }
-    if (found->size() > 0) return found;
-    found->error("this array is empty", "leave it out where there is nothing to list");
-    return std::nullopt;
+    if (found->size() == 0) return std::nullopt;
+    return found;
 }
 
 double View::number(std::string_view name, double otherwise, const Bounds& bounds) const

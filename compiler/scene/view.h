@@ -61,7 +61,7 @@ public:
     // ---- members of this object, checked; a member that is not there is no error
     std::optional<View> member(std::string_view name) const;
     std::optional<View> object(std::string_view name) const;
-    /// Not an empty one.
+    /// An empty one is as good as none.
     std::optional<View> array(std::string_view name) const;
     double number(std::string_view name, double otherwise, const Bounds& bounds = {}) const;
     std::vector<double> numbers(std::string_view name, std::vector<double> otherwise,
