@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace lobe::analyze {
 namespace {
-
-/// Radiance of an 18 % grey card under the light that makes the pixel: 0.18 / pi n.l.
-constexpr double grey_card = 0.18 / std::numbers::pi;
 
 void run(const evaluate::Tape& tape, const std::vector<const double*>& in,
          std::vector<double>& results, std::size_t rows)

@@ -9,10 +9,14 @@
 #include "analyze/packing/steps.h"
 
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <vector>
 
 namespace lobe::analyze {
+
+/// Radiance of an 18 % grey card, over n.l: what errors are relative to where a pixel is darker.
+inline constexpr double grey_card = 0.18 / std::numbers::pi;
 
 /// Which coordinates are stored, and as what: one entry per coordinate, null where it is not.
 using StoredAs = std::vector<const Steps*>;
