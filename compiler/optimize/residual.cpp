@@ -252,6 +252,7 @@ Residual residual(const Module& module, const Called& called, std::string_view m
     for (Packing& packing : current.packings)
         build_functions(current, packing, *current.find_gbuffer(packing.gbuffer));
     assert(!verify(current));
+    result.settings = effects.settings();
     result.module = std::move(current);
     return result;
 }

@@ -33,6 +33,8 @@ struct Residual {
     std::vector<std::string> absent;  ///< parameters that nothing reads any more
     std::vector<std::string> left;    ///< parameters that are still inputs
     std::vector<std::string> off;     ///< effects that are not in the code, in declared order
+    /// What was set: the constants, and what switches effects off.
+    Settings settings;
 };
 
 /// Of the outputs of one model, or of all where `model` is empty. Pure and total; names that the

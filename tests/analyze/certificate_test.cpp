@@ -1,0 +1,143 @@
+// A certificate says that a residual shader is the general one on everything a scene can show, and
+// it must be able to say that it is not.
+#include "analyze/residual/certificate.h"
+#include "base/render.h"
+#include "check/check.h"
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <iterator>
+
+using namespace lobe;
+using namespace lobe::analyze;
+
+namespace {
+
+struct Checked {
+    Sources sources;
+    ir::Module module;
+};
+
+Checked read(const std::string& path)
+{
+    Checked out;
+    const auto add = [](Sources& sources, const std::string& file) -> std::optional<std::uint32_t> {
+        std::ifstream in{file, std::ios::binary};
+        if (!in) return std::nullopt;
+        return sources.add(file, {std::istreambuf_iterator<char>{in}, {}});
+    };
+    const auto root = add(out.sources, path);
+    REQUIRE(root);
+    Diagnostics diagnostics;
+    const auto module = check::check(
+        out.sources, *root,
+        [&](Sources& all, std::string_view name, std::string_view) {
+            return add(all, "../models/" + std::string{name} + ".lobe");
+        },
+        diagnostics);
+    INFO(render_text(out.sources, diagnostics));
+    REQUIRE(module);
+    out.module = *module;
+    return out;
+}
+
+const Checked& callisto()
+{
+    static const Checked checked = read("../models/callisto.lobe");
+    return checked;
+}
+
+/// All parameters at their defaults but for these; all effects off but for these.
+optimize::Called called(const ir::Module& module, const optimize::Settings& settings,
+                        const optimize::Limits& ranges, const std::set<std::string>& on)
+{
+    optimize::Called result;
+    result.constants = settings;
+    result.ranges = ranges;
+    for (const ir::Parameter& parameter : module.parameters)
+        if (!ranges.contains(parameter.name))
+            result.constants.try_emplace(parameter.name, parameter.default_value);
+    for (const ir::Effect& effect : module.effects)
+        if (!on.contains(effect.name)) result.off.insert(effect.name);
+    return result;
+}
+
+CertificateOptions few_points()
+{
+    CertificateOptions options;
+    options.points = 4096;
+    return options;
+}
+
+Certificate certified(const optimize::Called& what, const optimize::Residual& residual)
+{
+    return certify(callisto().module, callisto().sources, "callisto", what, residual, {},
+                   few_points(), {});
+}
+
+}  // namespace
+
+TEST_CASE("where nothing is called for, residual and general are one graph")
+{
+    const auto what = called(callisto().module, {}, {}, {});
+    const Certificate certificate =
+        certified(what, optimize::residual(callisto().module, what, "callisto"));
+    CHECK(certificate.ok());
+    REQUIRE(certificate.outputs.size() == 2);
+    for (const Equality& output : certificate.outputs) {
+        CAPTURE(output.output);
+        CHECK(output.same_graph);
+        CHECK(output.points == 4096);
+        CHECK(output.outside == 0);
+        CHECK(output.device_outside == 0);
+        CHECK_FALSE(output.device.empty());
+        // Of exact values nothing is left but their own rounding to double, beside float's.
+        CHECK(output.worst < 1);
+    }
+}
+
+TEST_CASE("constants and ranges of a scene keep what the model means")
+{
+    const auto what = called(callisto().module,
+                             {{"retroreflection_falloff", {0.7}},
+                              {"retroreflection_tint", {1, 0.9, 0.7}},
+                              {"specular_fresnel_falloff", {0.4}}},
+                             {{"retroreflection", {1, 8}}, {"roughness", {0.3, 0.6}}},
+                             {"Retroreflection", "Specular Fresnel"});
+    const Certificate certificate =
+        certified(what, optimize::residual(callisto().module, what, "callisto"));
+    for (const Equality& output : certificate.outputs) {
+        CAPTURE(output.output, output.worst);
+        CHECK(output.ok());
+        CHECK(output.worst < 1);
+    }
+}
+
+TEST_CASE("a residual of other constants is found out")
+{
+    const auto what =
+        called(callisto().module, {{"retroreflection", {4}}}, {}, {"Retroreflection"});
+    auto other = what;
+    other.constants["retroreflection"] = {4.001};
+    const Certificate certificate =
+        certified(what, optimize::residual(callisto().module, other, "callisto"));
+    CHECK_FALSE(certificate.ok());
+    CHECK_FALSE(certificate.outputs[0].same_graph);
+    CHECK(certificate.outputs[0].outside > 0);
+    CHECK(certificate.outputs[0].device_outside > 0);
+    CHECK(certificate.outputs[0].worst > 1);
+    // The specular lobes know nothing of it.
+    CHECK(certificate.outputs[1].ok());
+}
+
+TEST_CASE("an effect that was left out although it is called for is found out")
+{
+    const auto what =
+        called(callisto().module, {{"smooth_terminator", {0.5}}}, {}, {"Smooth Terminator"});
+    const auto nothing = called(callisto().module, {}, {}, {});
+    const Certificate certificate =
+        certified(what, optimize::residual(callisto().module, nothing, "callisto"));
+    CHECK_FALSE(certificate.ok());
+    for (const Equality& output : certificate.outputs) CHECK(output.outside > 0);
+}
