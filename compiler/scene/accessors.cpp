@@ -108,8 +108,9 @@ public:
         accessor.count = view_.whole("count", 0, 1, most_elements);
         std::vector<std::string> names;
         for (const Shape& shape : shapes) names.emplace_back(shape.name);
-        const Shape& shape = shapes[view_.choice("type", names)];
-        if (!type || accessor.count == 0) return std::nullopt;
+        const auto choice = view_.choice("type", names);
+        if (!type || !choice || accessor.count == 0) return std::nullopt;
+        const Shape& shape = shapes[*choice];
         accessor.type = *type;
         accessor.rows = shape.rows;
         accessor.columns = shape.columns;

@@ -90,8 +90,10 @@ Buffers::Buffers(const View& root, std::optional<std::string_view> binary, const
         const std::size_t offset = view.whole("byteOffset", 0, 0, most_bytes);
         const std::size_t length = view.whole("byteLength", 0, 1, most_bytes);
         const std::size_t stride = view.whole("byteStride", 0, 4, 252);
-        if (stride % 4 != 0)
+        if (stride % 4 != 0) {
             view.error(fmt::format("a `byteStride` of {} is no multiple of 4", stride));
+            continue;
+        }
         if (!buffer || !buffers[*buffer] || length == 0) continue;
         const std::string_view bytes = *buffers[*buffer];
         if (offset > bytes.size() || length > bytes.size() - offset)

@@ -52,7 +52,9 @@ Light read_light(const View& view)
     light.pointer = view.pointer();
     if (!view.expect_object() || !view.require("type")) return light;
     light.name = view.text("name");
-    light.kind = static_cast<Light::Kind>(view.choice("type", {"directional", "point", "spot"}));
+    const auto kind = view.choice("type", {"directional", "point", "spot"});
+    if (!kind) return light;
+    light.kind = static_cast<Light::Kind>(*kind);
     const auto color = view.numbers("color", {1, 1, 1}, unit_bounds);
     light.color = {color[0], color[1], color[2]};
     light.intensity = view.number("intensity", 1, not_negative);

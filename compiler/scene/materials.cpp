@@ -58,8 +58,8 @@ Material read_material(const View& view, Textures& textures, std::size_t materia
     if (const auto occlusion = view.object("occlusionTexture"))
         occlusion->number("strength", 1, unit_bounds);
     material.double_sided = view.flag("doubleSided", false);
-    material.alpha =
-        static_cast<Material::Alpha>(view.choice("alphaMode", {"OPAQUE", "MASK", "BLEND"}));
+    material.alpha = static_cast<Material::Alpha>(
+        view.choice("alphaMode", {"OPAQUE", "MASK", "BLEND"}).value_or(0));
     material.alpha_cutoff = view.number("alphaCutoff", 0.5, not_negative);
     read_extensions(view, textures, material);
     if (const auto extras = view.extras())

@@ -18,7 +18,9 @@ Camera read_camera(const View& view)
     Camera camera;
     if (!view.expect_object() || !view.require("type")) return camera;
     camera.name = view.text("name");
-    if (view.choice("type", {"perspective", "orthographic"}) == 0) {
+    const auto type = view.choice("type", {"perspective", "orthographic"});
+    if (!type) return camera;
+    if (*type == 0) {
         const auto lens = view.object("perspective");
         if (!lens) {
             view.require("perspective");

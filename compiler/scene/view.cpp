@@ -201,7 +201,7 @@ std::array<double, 4> View::rotation(std::string_view name) const
     const std::array<double, 4> none{0, 0, 0, 1};
     const auto found = member(name);
     if (!found) return none;
-    const auto given = found->numbers({0, 0, 0, 1}, {-1, 1});
+    const auto given = found->numbers({0, 0, 0, 1});
     const double length =
         std::hypot(std::hypot(given[0], given[1]), std::hypot(given[2], given[3]));
     // Components that were normalized bytes are off by up to half a step of 1/127 each, so the
@@ -244,16 +244,17 @@ std::string View::text(std::string_view name, std::string otherwise) const
     return text ? std::move(*text) : otherwise;
 }
 
-std::size_t View::choice(std::string_view name, const std::vector<std::string>& choices) const
+std::optional<std::size_t> View::choice(std::string_view name,
+                                        const std::vector<std::string>& choices) const
 {
     const auto found = member(name);
     if (!found) return 0;
     const auto text = found->text();
-    if (!text) return 0;
+    if (!text) return std::nullopt;
     const auto at = std::ranges::find(choices, *text);
     if (at != choices.end()) return static_cast<std::size_t>(at - choices.begin());
     found->error(fmt::format("{} is none of {}", quoted(*text), fmt::join(choices, ", ")));
-    return 0;
+    return std::nullopt;
 }
 
 std::optional<std::size_t> View::index(std::string_view name, std::size_t size,

@@ -73,8 +73,10 @@ public:
                       std::size_t high) const;
     bool flag(std::string_view name, bool otherwise) const;
     std::string text(std::string_view name, std::string otherwise = {}) const;
-    /// The position of the member in `choices`; the first where it is absent or another.
-    std::size_t choice(std::string_view name, const std::vector<std::string>& choices) const;
+    /// The position of the member in `choices`: the first where it is absent, none where it is
+    /// another.
+    std::optional<std::size_t> choice(std::string_view name,
+                                      const std::vector<std::string>& choices) const;
     std::optional<std::size_t> index(std::string_view name, std::size_t size,
                                      std::string_view what) const;
     /// Says that a member has to be there. True if it is.
