@@ -141,3 +141,81 @@ TEST_CASE("an effect that was left out although it is called for is found out")
     CHECK_FALSE(certificate.ok());
     for (const Equality& output : certificate.outputs) CHECK(output.outside > 0);
 }
+
+namespace {
+
+std::vector<Dropped> dropped(const optimize::Called& what, double epsilon)
+{
+    return droppable(callisto().module, "callisto", what, epsilon, few_points());
+}
+
+}  // namespace
+
+TEST_CASE("a terminator of 0.004 may go for one percent, and not for less than it does")
+{
+    const auto what =
+        called(callisto().module, {{"smooth_terminator", {0.004}}}, {}, {"Smooth Terminator"});
+    const auto some = dropped(what, 0.01);
+    REQUIRE(some.size() == 1);
+    CHECK(some[0].effect == "Smooth Terminator");
+    // c2 is 1 - 0.004 mask (1 - smoothstep), and what is beside 0.004 lies in [0, 1]: radiance is
+    // darker by at most 0.004, relative to what is left by 0.004 / 0.996.
+    CHECK(some[0].observed <= some[0].bound);
+    CHECK(some[0].bound <= 0.004 / 0.996 * (1 + 1e-9));
+    CHECK(dropped(what, some[0].observed / 2).empty());
+}
+
+TEST_CASE("a gain of 1.02 changes radiance by no more than its own share")
+{
+    const auto what =
+        called(callisto().module, {{"retroreflection", {1.02}}}, {}, {"Retroreflection"});
+    const auto some = dropped(what, 0.05);
+    REQUIRE(some.size() == 1);
+    // Diffuse light is 1 to 1.02 times what it was, and specular light the same.
+    CHECK(some[0].bound <= 0.02 / 1.02 * (1 + 1e-9));
+    CHECK(some[0].observed <= some[0].bound);
+    CHECK(dropped(what, 0.01).empty());
+}
+
+TEST_CASE("effects go together as long as their bounds allow it")
+{
+    const auto what =
+        called(callisto().module, {{"retroreflection", {1.02}}, {"smooth_terminator", {0.004}}}, {},
+               {"Retroreflection", "Smooth Terminator"});
+    const auto one = dropped(what, 0.02);
+    REQUIRE(one.size() == 1);
+    CHECK(one[0].effect == "Smooth Terminator");
+    const auto both = dropped(what, 0.025);
+    REQUIRE(both.size() == 2);
+    CHECK((1 + both[0].bound) * (1 + both[1].bound) - 1 < 0.025);
+
+    // What is left equals the general model where they are off.
+    auto without = what;
+    for (const Dropped& each : both) without.off.insert(each.effect);
+    const auto residual = optimize::residual(callisto().module, without, "callisto");
+    CHECK(residual.off.size() == callisto().module.effects.size());
+    const Certificate certificate = certify(callisto().module, callisto().sources, "callisto",
+                                            without, residual, both, few_points(), {});
+    CHECK(certificate.ok());
+    CHECK(certificate.dropped.size() == 2);
+}
+
+TEST_CASE("what no proof holds together stays")
+{
+    // A second lobe of twice the roughness outshines the first far from its peak, by what the two
+    // alphas say together: the ratio of unlike expressions, which no bound here knows.
+    const auto what =
+        called(callisto().module, {{"dual_specular_opacity", {0.001}}}, {}, {"Dual Specular"});
+    CHECK(dropped(what, 0.05).empty());
+}
+
+TEST_CASE("ranges count with their worst end")
+{
+    const auto what = called(callisto().module, {}, {{"smooth_terminator", {-0.01, 0.02}}},
+                             {"Smooth Terminator"});
+    const auto some = dropped(what, 0.05);
+    REQUIRE(some.size() == 1);
+    CHECK(some[0].bound <= 0.02 / 0.98 * (1 + 1e-9));
+    CHECK(some[0].observed <= some[0].bound);
+    CHECK(some[0].observed > 0.01);
+}

@@ -15,8 +15,9 @@ using ir::SurfaceField;
 /// Builds the sum of functions over the union of their inputs.
 class Sum {
 public:
-    Sum(const ir::Module& module, const std::vector<ir::FunctionId>& outputs, Channels channels)
-        : module_{module}
+    Sum(const ir::Module& module, const std::vector<ir::FunctionId>& outputs, Channels channels,
+        GeometryAs geometry)
+        : module_{module}, of_fields_{geometry == GeometryAs::fields}
     {
         for (const ir::FunctionId output : outputs) note(module_[output]);
         if (geometry_) {
@@ -42,7 +43,7 @@ private:
     void note(const ir::Function& output)
     {
         for (const ir::Input& input : output.inputs) {
-            if (input.origin == Origin::geometry) {
+            if (input.origin == Origin::geometry && !of_fields_) {
                 geometry_ = true;
                 tangents_ |= ir::needs_tangents(static_cast<GeometryField>(input.which));
             }
@@ -89,7 +90,7 @@ private:
 
     ir::ExprId operand(const ir::Input& wanted)
     {
-        if (wanted.origin == Origin::geometry)
+        if (wanted.origin == Origin::geometry && !of_fields_)
             return ir::expand(function.graph, static_cast<GeometryField>(wanted.which), frame_);
         const bool alpha = wanted.origin == Origin::surface &&
                            wanted.which == static_cast<std::uint32_t>(SurfaceField::alpha);
@@ -117,6 +118,7 @@ private:
     }
 
     const ir::Module& module_;
+    bool of_fields_ = false;
     bool geometry_ = false;
     bool tangents_ = false;
     bool roughness_ = false;
@@ -212,9 +214,9 @@ std::vector<bool> slots_read(const evaluate::Tape& tape)
 }  // namespace
 
 ir::Function radiance_of(const ir::Module& module, const std::vector<ir::FunctionId>& outputs,
-                         Channels channels)
+                         Channels channels, GeometryAs geometry)
 {
-    return Sum{module, outputs, channels}.function;
+    return Sum{module, outputs, channels, geometry}.function;
 }
 
 namespace {

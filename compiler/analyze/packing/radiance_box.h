@@ -46,9 +46,16 @@ enum class Channels : std::uint8_t {
     first
 };
 
-/// The sum of some functions, as one of vectors and everything else that they read.
+/// What stands for the geometry: vectors, or each field that is read, by itself.
+enum class GeometryAs : std::uint8_t {
+    vectors,
+    fields
+};
+
+/// The sum of some functions, as one of the geometry and everything else that they read.
 ir::Function radiance_of(const ir::Module& module, const std::vector<ir::FunctionId>& outputs,
-                         Channels channels = Channels::all);
+                         Channels channels = Channels::all,
+                         GeometryAs geometry = GeometryAs::vectors);
 
 /// Every input over its declared range, parameters too.
 RadianceBox whole_box(const ir::Module& module, const ir::Function& radiance);
