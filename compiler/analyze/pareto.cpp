@@ -77,6 +77,7 @@ std::string key_of(const TradeSubject& subject, const FoundNames& found,
     std::string key = fmt::format("trade 2\n{}\n{}\n{} points{}\n{}\n", subject.name(),
                                   subject.is_model() ? "model" : "term", options.points,
                                   options.every_cost ? ", every cost" : "", driver);
+    if (options.proofs) key += fmt::format("{} boxes\n", options.proof_boxes);
     for (const Family family : options.cost.families) key += fmt::format("{}\n", name(family));
     for (const auto& [term, form] : found) key += fmt::format("found {} {}\n", term, form);
     for (const ir::Parameter& parameter : subject.module().parameters)
@@ -113,8 +114,8 @@ bool has_alternative(const Trade& trade)
     return std::ranges::count(trade.candidates, true, &Candidate::selectable) > 1;
 }
 
-std::optional<Deviation> quantization(const ir::Module& checked, const ir::Model& model,
-                                      const ParetoOptions& options)
+std::optional<Quantization> quantization(const ir::Module& checked, const ir::Model& model,
+                                         const ParetoOptions& options)
 {
     if (std::ranges::none_of(checked.packings, [&model](const ir::Packing& packing) {
             return packing.model.name == model.name;
@@ -124,19 +125,35 @@ std::optional<Deviation> quantization(const ir::Module& checked, const ir::Model
     for (const ir::Packing& packing : optimized.packings) {
         if (packing.model.name != model.name) continue;
         const PackingErrors errors =
-            packing_errors(optimized, packing, {options.points, options.cost.jobs});
-        Deviation out;
-        out.scaled = errors.whole.worst;
+            packing_errors(optimized, packing, {options.points, options.cost.jobs, true});
+        Quantization out;
+        out.worst = errors.whole.worst;
+        out.often = errors.whole.often;
         out.typical = errors.whole.typical;
         out.absolute = std::abs(errors.whole.witness.packed - errors.whole.witness.exact);
-        out.codes = std::abs(display_code(errors.whole.witness.packed) -
-                             display_code(errors.whole.witness.exact));
+        out.codes = errors.whole.codes;
+        out.often_codes = errors.whole.often_codes;
         out.points = errors.points;
         for (const auto& [name, value] : errors.whole.witness.inputs)
             out.at += fmt::format("{}{} = {:.6g}", out.at.empty() ? "" : ", ", name, value);
         return out;
     }
     return std::nullopt;
+}
+
+/// With the budget of `lobec stability`, so that either keeps what the other asks for.
+std::vector<Proof> output_proofs(const ir::Module& checked, const ir::Model& model,
+                                 const ParetoOptions& options, const Store& store)
+{
+    const ir::Module optimized = optimize::optimize(checked);
+    std::vector<ir::FunctionId> outputs;
+    for (const ir::ModelOutput& output : model.outputs)
+        if (const auto id = optimized.find(checked[output.function].name)) outputs.push_back(*id);
+    ProofOptions proof;
+    proof.precisions = {evaluate::Precision::float32};
+    proof.jobs = options.cost.jobs;
+    proof.progress = options.progress;
+    return proofs_of(optimized, outputs, proof, store);
 }
 
 }  // namespace
@@ -202,6 +219,7 @@ Pareto pareto(const ir::Module& original, const Sources& sources, const ParetoOp
             Trade of_model = kept_trade(TradeSubject::of_model(checked, model), found, options,
                                         measurer, driver, store);
             of_model.quantization = quantization(checked, model, options);
+            if (options.proofs) of_model.proofs = output_proofs(checked, model, options, store);
             out.trades.push_back(std::move(of_model));
         }
     const auto spent = std::chrono::steady_clock::now() - start;

@@ -8,7 +8,9 @@
 #pragma once
 
 #include "analyze/cost/cost.h"
+#include "analyze/proof/proof.h"
 #include "analyze/trade/deviation.h"
+#include "analyze/trade/proved.h"
 #include "optimize/forms.h"
 #include "optimize/spelling.h"
 
@@ -38,13 +40,25 @@ struct Candidate {
     Deviation model;         ///< over the reals
     Deviation rounding;      ///< of the CPU's or the device's evaluation in `format`
     Deviation total;         ///< both together: what is judged
-    std::optional<double> proved_rounding;  ///< bound of the scaled rounding error
-    Cost cost;                              ///< given its fields
-    Cost from_vectors;                      ///< with what the fields take
-    std::map<Family, Standing> standing;    ///< on the families that were measured
+    std::optional<ProvedRounding> proved;  ///< of a term, given its fields
+    Cost cost;                             ///< given its fields
+    Cost from_vectors;                     ///< with what the fields take
+    std::map<Family, Standing> standing;   ///< on the families that were measured
 };
 
 std::string describe(const Candidate& candidate);  ///< `F_Schlick: spherical_gaussian; half`
+
+/// What a packing adds to the error of its model, all parameters stored: see packing/radiance.h.
+struct Quantization {
+    double worst = 0;        ///< greatest scaled error that was found
+    double often = 0;        ///< 95 of 100 points of the box have less
+    double typical = 0;      ///< the median
+    double absolute = 0;     ///< at the worst point
+    double codes = 0;        ///< greatest difference on a display over the box, in 8-bit codes
+    double often_codes = 0;  ///< 95 of 100 points have less
+    std::size_t points = 0;
+    std::string at;  ///< inputs of the worst
+};
 
 struct Trade {
     std::string name;  ///< of a term or a model
@@ -53,7 +67,10 @@ struct Trade {
     std::vector<Candidate> candidates;  ///< the definition, stable, float, is first
     /// What was searched, in words: `all 216 combinations`, or how far from exact it may be.
     std::string search;
-    std::optional<Deviation> quantization;  ///< of the model's packing, all parameters together
+    std::optional<Quantization> quantization;  ///< of the model's packing
+    /// What is proved of a model's outputs as they ship, in float and given their fields; the
+    /// combinations of forms are not proved one by one.
+    std::vector<Proof> proofs = {};
 
     /// The cost that a candidate is judged by.
     const Cost& cost_of(const Candidate& candidate) const
@@ -69,6 +86,9 @@ struct Trade {
 struct ParetoOptions {
     CostOptions cost;
     std::size_t points = std::size_t{1} << 15;
+    /// Proves the rounding of terms, of each way within so many boxes, and of models.
+    bool proofs = true;
+    std::size_t proof_boxes = std::size_t{1} << 11;
     /// Also the costs of what an estimate excludes from every frontier of a model.
     bool every_cost = false;
     bool terms = true;

@@ -270,6 +270,7 @@ Chosen choose(const ir::Module& checked, const Sources& sources, const Limit& li
     options.terms = checked.models.empty();
     options.cost.jobs = jobs;
     options.cost.families = {limit.family};
+    options.proofs = false;
     options.progress = [&](const analyze::Progress& at) {
         progress.show(fmt::format("{}: {} of {} {}", checked.name, at.done, at.total, at.what));
     };

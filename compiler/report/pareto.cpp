@@ -21,12 +21,6 @@ using analyze::Trade;
 /// Below it a difference over the reals is that of the doubles it was computed in.
 constexpr double least_error = 1e-12;
 
-std::string percent_of(double fraction)
-{
-    if (fraction < least_error) return "0";
-    return fmt::format("{} %", short_number(100 * fraction));
-}
-
 double cycles_of(const Trade& trade, const Candidate& candidate, Family family)
 {
     return trade.cost_of(candidate).families.contains(family)
@@ -63,6 +57,38 @@ std::string not_finite(const Deviation& total)
 }
 
 }  // namespace
+
+std::string percent_of(double fraction)
+{
+    if (fraction < least_error) return "0";
+    return fmt::format("{} %", short_number(100 * fraction));
+}
+
+std::string proved_of(const Candidate& candidate)
+{
+    if (!candidate.proved) return "";
+    if (!std::isfinite(candidate.proved->bound)) return "none";
+    return percent_of(candidate.proved->bound) + (candidate.proved->over.empty() ? "" : " in part");
+}
+
+std::string words_of(const analyze::Quantization& quantization)
+{
+    return fmt::format("its packing adds up to {}, or {} codes; 95 % of points stay below {}, or "
+                       "{} codes",
+                       percent_of(quantization.worst), short_number(quantization.codes),
+                       percent_of(quantization.often), short_number(quantization.often_codes));
+}
+
+std::string words_of(const std::vector<analyze::Proof>& proofs)
+{
+    std::string text = "rounding of the definition, proved where its fields are exact:";
+    for (const analyze::Proof& proof : proofs)
+        text +=
+            fmt::format("{} {} within {} (worst found: {})", &proof == &proofs.front() ? "" : ",",
+                        proof.function, short_number(proof.ieee.absolute),
+                        short_number(proof.ieee.observed_absolute));
+    return text;
+}
 
 Table trade_table(const Trade& trade, Family family, bool all)
 {
@@ -104,7 +130,11 @@ Table trade_table(const Trade& trade, Family family, bool all)
              {has_cost ? fmt::format("{:.1f}", cost.families.at(family).issue) : "-", style},
              {has_cost ? std::to_string(cost.families.at(family).vgprs) : "-"},
              {standing_of(trade, candidate, family), best ? Style::good : Style::faint}});
+        // Of a model its outputs are proved, not its candidates.
+        if (!trade.whole_model)
+            table.rows.back().insert(table.rows.back().begin() + 4, Cell{proved_of(candidate)});
     }
+    if (!trade.whole_model) table.columns.insert(table.columns.begin() + 4, {"proved", true});
     return table;
 }
 
@@ -123,10 +153,8 @@ std::string to_text(const analyze::Pareto& pareto, Family family, bool all, std:
         if (table.rows.size() < trade.candidates.size())
             text += fmt::format("{} of {} candidates: those on the frontier of {}\n",
                                 table.rows.size(), trade.candidates.size(), analyze::title(family));
-        if (trade.quantization)
-            text += fmt::format("its packing adds up to {}; median {}\n",
-                                percent_of(trade.quantization->scaled),
-                                percent_of(trade.quantization->typical));
+        if (trade.quantization) text += words_of(*trade.quantization) + "\n";
+        if (!trade.proofs.empty()) text += words_of(trade.proofs) + "\n";
         text += styled(fmt::format("lobec pareto {} --{} {}{}", path,
                                    trade.whole_model ? "model" : "term", trade.name, options),
                        Style::faint, look.color);

@@ -22,6 +22,27 @@ ordered_json to_json(const analyze::Deviation& deviation)
             {"at", deviation.at}};
 }
 
+ordered_json to_json(const analyze::Quantization& quantization)
+{
+    return {{"worst", json_number(quantization.worst)},
+            {"below_95_percent", json_number(quantization.often)},
+            {"typical", json_number(quantization.typical)},
+            {"absolute_at_worst", json_number(quantization.absolute)},
+            {"codes", json_number(quantization.codes)},
+            {"codes_below_95_percent", json_number(quantization.often_codes)},
+            {"points", quantization.points},
+            {"at", quantization.at}};
+}
+
+ordered_json to_json(const analyze::ProvedRounding& proved)
+{
+    ordered_json out{{"bound", json_number(proved.bound)},
+                     {"observed", json_number(proved.observed)},
+                     {"any_device", json_number(proved.any_device)}};
+    if (!proved.over.empty()) out["over"] = proved.over;
+    return out;
+}
+
 ordered_json to_json(const analyze::Cost& cost)
 {
     ordered_json out = ordered_json::object();
@@ -66,7 +87,7 @@ ordered_json to_json(const analyze::Trade& trade, std::size_t index)
                      {"rounding", to_json(candidate.rounding)},
                      {"total", to_json(candidate.total)}};
     if (!candidate.note.empty()) out["note"] = candidate.note;
-    if (candidate.proved_rounding) out["proved_rounding"] = json_number(*candidate.proved_rounding);
+    if (candidate.proved) out["proved_rounding"] = to_json(*candidate.proved);
     if (candidate.cost.spirv_instructions > 0) out["cost_given_fields"] = to_json(candidate.cost);
     if (candidate.from_vectors.spirv_instructions > 0)
         out["cost_from_vectors"] = to_json(candidate.from_vectors);
@@ -84,6 +105,11 @@ ordered_json to_json(const analyze::Trade& trade)
                      {"judged_from_vectors", trade.from_vectors},
                      {"search", trade.search}};
     if (trade.quantization) out["quantization"] = to_json(*trade.quantization);
+    for (const analyze::Proof& proof : trade.proofs)
+        out["proved_rounding"][proof.function] = {
+            {"absolute", json_number(proof.ieee.absolute)},
+            {"observed", json_number(proof.ieee.observed_absolute)},
+            {"any_device", json_number(proof.vulkan.absolute)}};
     out["candidates"] = std::move(candidates);
     return out;
 }

@@ -1,5 +1,6 @@
 #include "report/pareto_page.h"
 
+#include "report/pareto.h"
 #include "report/verification.h"
 
 #include <fmt/format.h>
@@ -28,19 +29,15 @@ bool is_shown(const Trade& trade, std::size_t index)
            !trade.whole_model;
 }
 
-/// `0.034 %`, `1.4e-5 %`
-std::string percent_of(double fraction)
-{
-    return fmt::format("{} %", short_number(100 * fraction));
-}
-
 Table candidate_table(const Trade& trade)
 {
     Table table;
-    table.columns = {{"", true},       {"form, spelling, format"},
-                     {"model", true},  {"rounding", true},
-                     {"proved", true}, {"worst", true},
-                     {"99 %", true},   {"codes", true}};
+    table.columns = {{"", true},      {"form, spelling, format"},
+                     {"model", true}, {"rounding", true},
+                     {"worst", true}, {"99 %", true},
+                     {"codes", true}};
+    // Of a model its outputs are proved, not its candidates.
+    if (!trade.whole_model) table.columns.insert(table.columns.begin() + 4, {"proved", true});
     for (const analyze::Family family : analyze::all_families)
         table.columns.push_back({std::string{analyze::name(family)}, true});
     table.columns.push_back({"registers", true});
@@ -56,7 +53,7 @@ Table candidate_table(const Trade& trade)
         row.push_back({analyze::describe(candidate)});
         row.push_back({percent_of(candidate.model.scaled)});
         row.push_back({percent_of(candidate.rounding.scaled)});
-        row.push_back({candidate.proved_rounding ? percent_of(*candidate.proved_rounding) : ""});
+        if (!trade.whole_model) row.push_back({proved_of(candidate)});
         if (candidate.total.not_finite > 0)
             row.push_back(
                 {fmt::format("NaN at {} %",
@@ -107,11 +104,12 @@ Section section_of(const Trade& trade, const std::string& path)
                      trade.whole_model ? ", by which frontiers are drawn" : ""),
          Style::faint});
     if (trade.quantization)
-        out.paragraphs.push_back({fmt::format("Its packing adds up to {} to any of these, {} in "
-                                              "the median.",
-                                              percent_of(trade.quantization->scaled),
-                                              percent_of(trade.quantization->typical)),
-                                  Style::faint});
+        out.paragraphs.push_back(
+            {fmt::format("To any of these errors {}, at {}.", words_of(*trade.quantization),
+                         trade.quantization->at),
+             Style::faint});
+    if (!trade.proofs.empty())
+        out.paragraphs.push_back({words_of(trade.proofs) + ".", Style::faint});
     if (std::string picture = trade_picture(trade); !picture.empty())
         out.pictures.push_back(std::move(picture));
     Table table = candidate_table(trade);

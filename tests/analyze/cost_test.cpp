@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <utility>
 
 using namespace lobe;
 using namespace lobe::analyze;

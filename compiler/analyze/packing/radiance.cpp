@@ -18,8 +18,9 @@ constexpr int rounds = 96;
 /// One thing to measure: some coordinates stored, the others as they are.
 struct Question {
     StoredAs stored;
-    std::vector<Peak> best;        ///< per chunk, its worst point
-    std::vector<double> anywhere;  ///< errors of the points that are uniform over the box
+    std::vector<Peak> best;          ///< per chunk, its worst point
+    std::vector<double> anywhere;    ///< errors of the points that are uniform over the box
+    std::vector<double> codes = {};  ///< the same on a display, if that is asked for
 };
 
 /// Evaluates all points for all questions at once: the exact radiance is the same for all.
@@ -31,6 +32,7 @@ void survey(const RadianceBox& box, const StoredAs& all, std::vector<Question>& 
         question.best.resize(chunks);
         question.anywhere.resize(chunks * chunk / 2);
     }
+    if (options.codes) questions.back().codes.resize(chunks * chunk / 2);
     for_each_task(chunks, options.jobs, [&](std::size_t task) {
         RadianceMeter meter{box, chunk};
         for (std::size_t row = 0; row < chunk; ++row)
@@ -40,6 +42,9 @@ void survey(const RadianceBox& box, const StoredAs& all, std::vector<Question>& 
             const std::vector<double>& errors = meter.compare(question.stored);
             for (std::size_t row = 0; row < chunk; row += 2)
                 question.anywhere[(task * chunk + row) / 2] = errors[row];
+            if (!question.codes.empty())
+                for (std::size_t row = 0; row < chunk; row += 2)
+                    question.codes[(task * chunk + row) / 2] = meter.codes(row);
             const auto worst = std::ranges::max_element(errors);
             question.best[task] = {*worst,
                                    meter.point(static_cast<std::size_t>(worst - errors.begin()))};
@@ -88,6 +93,10 @@ RadianceError report(const RadianceBox& box, Question& question)
     RadianceError out;
     out.typical = quantile(question.anywhere, 0.5);
     out.often = quantile(question.anywhere, 0.95);
+    if (!question.codes.empty()) {
+        out.codes = std::ranges::max(question.codes);
+        out.often_codes = quantile(question.codes, 0.95);
+    }
     RadianceMeter meter{box, 1};
     const std::vector<float>& point = question.best.front().point;
     meter.set(0, point);

@@ -31,9 +31,11 @@ struct RadianceWitness {
 };
 
 struct RadianceError {
-    double worst = 0;    ///< 0.02 is 2 %
-    double typical = 0;  ///< the median over the box
-    double often = 0;    ///< 95 of 100 points have less
+    double worst = 0;        ///< 0.02 is 2 %
+    double typical = 0;      ///< the median over the box
+    double often = 0;        ///< 95 of 100 points have less
+    double codes = 0;        ///< greatest difference on a display over the box, in 8-bit codes
+    double often_codes = 0;  ///< 95 of 100 points have less
     RadianceWitness witness;
 };
 
@@ -50,6 +52,7 @@ struct PackingErrors {
 struct RadianceOptions {
     std::size_t points = std::size_t{1} << 16;  ///< before the climb
     unsigned jobs = 0;                          ///< threads; 0: one per core
+    bool codes = false;                         ///< also what a display shows of the whole
 };
 
 /// `module` has been through optimize. The box is what the fields carry, the declared ranges of

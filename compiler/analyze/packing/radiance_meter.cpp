@@ -1,5 +1,6 @@
 #include "analyze/packing/radiance_meter.h"
 
+#include "analyze/trade/deviation.h"
 #include "evaluate/run.h"
 
 #include <algorithm>
@@ -92,6 +93,15 @@ RadianceMeter::Detail RadianceMeter::detail(std::size_t row) const
                                  : std::numeric_limits<double>::infinity();
         if (error > worst.error) worst = {error, exact, packed};
     }
+    return worst;
+}
+
+double RadianceMeter::codes(std::size_t row) const
+{
+    double worst = 0;
+    for (std::size_t k = row; k < exact_.size(); k += rows_)
+        if (std::isfinite(exact_[k]))
+            worst = std::max(worst, std::abs(display_code(packed_[k]) - display_code(exact_[k])));
     return worst;
 }
 

@@ -45,6 +45,9 @@ public:
         double packed = 0;
     };
     Detail detail(std::size_t row) const;
+    /// The same point on a display: the greatest difference of a channel in 8-bit codes
+    /// (trade/deviation.h).
+    double codes(std::size_t row) const;
 
 private:
     std::vector<const double*> heads() const;

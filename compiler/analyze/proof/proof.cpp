@@ -390,6 +390,14 @@ std::vector<Proof> proofs(const ir::Module& module, const ProofOptions& options,
     return prove(module, functions, options, store);
 }
 
+std::vector<Proof> proofs_of(const ir::Module& module, const std::vector<ir::FunctionId>& functions,
+                             const ProofOptions& options, const Store& store)
+{
+    std::vector<ir::Function> wanted;
+    for (const ir::FunctionId id : functions) wanted.push_back(module[id]);
+    return prove(module, wanted, options, store);
+}
+
 std::vector<Proof> field_proofs(const ir::Module& module, const ProofOptions& options,
                                 const Store& store)
 {

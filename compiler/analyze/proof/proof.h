@@ -72,6 +72,10 @@ struct ProofOptions {
 std::vector<Proof> proofs(const ir::Module& module, const ProofOptions& options,
                           const Store& store);
 
+/// The same for these functions, in this order.
+std::vector<Proof> proofs_of(const ir::Module& module, const std::vector<ir::FunctionId>& functions,
+                             const ProofOptions& options, const Store& store);
+
 /// The same for the fields that the module's functions read, as functions of unit vectors.
 std::vector<Proof> field_proofs(const ir::Module& module, const ProofOptions& options,
                                 const Store& store);

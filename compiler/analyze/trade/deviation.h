@@ -17,6 +17,9 @@
 
 namespace lobe::analyze {
 
+/// What an 18 % grey card reflects.
+inline constexpr double grey_albedo = 0.18;
+
 struct Deviation {
     double scaled = 0;            ///< greatest; 0.02 is 2 %
     double often = 0;             ///< 99 of 100 usual points have less of the same

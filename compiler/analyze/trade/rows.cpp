@@ -13,8 +13,6 @@
 namespace lobe::analyze {
 namespace {
 
-constexpr double grey_albedo = 0.18;
-
 /// Results of `count` rows, one column per output of the tape.
 template <class Number>
 std::vector<Number*> heads(std::vector<Number>& columns, std::size_t outputs, std::size_t rows)

@@ -37,6 +37,15 @@ void put(std::string& text, const Deviation& d)
                         d.root_mean_square, d.codes, d.points, d.not_finite, d.at);
 }
 
+void put(std::string& text, const std::optional<ProvedRounding>& proved)
+{
+    if (proved)
+        text += fmt::format("{} {} {} {}\n", proved->bound, proved->observed, proved->any_device,
+                            proved->over);
+    else
+        text += "\n";
+}
+
 void put(std::string& text, const Cost& cost)
 {
     text += fmt::format("{} {}", cost.spirv_instructions, cost.families.size());
@@ -75,6 +84,16 @@ void Reader::take(Deviation& out)
     out.at = words.rest();
 }
 
+void Reader::take(std::optional<ProvedRounding>& out)
+{
+    Words words{line()};
+    if (!sound_ || words.rest().empty()) return;
+    ProvedRounding& proved = out.emplace();
+    sound_ =
+        words.take(proved.bound) && words.take(proved.observed) && words.take(proved.any_device);
+    proved.over = words.rest();
+}
+
 void Reader::take(Cost& out)
 {
     Words words{line()};
@@ -108,6 +127,7 @@ std::string to_text(const Trade& trade)
         put(text, candidate.model);
         put(text, candidate.rounding);
         put(text, candidate.total);
+        put(text, candidate.proved);
         put(text, candidate.cost);
         put(text, candidate.from_vectors);
     }
@@ -146,6 +166,7 @@ std::optional<Trade> read_trade(std::string_view text)
         reader.take(candidate.model);
         reader.take(candidate.rounding);
         reader.take(candidate.total);
+        reader.take(candidate.proved);
         reader.take(candidate.cost);
         reader.take(candidate.from_vectors);
     }

@@ -12,6 +12,7 @@ namespace lobe::analyze {
 
 /// Adds a line.
 void put(std::string& text, const Deviation& deviation);
+void put(std::string& text, const std::optional<ProvedRounding>& proved);
 void put(std::string& text, const Cost& cost);
 
 /// Takes lines off a text. After something was not as expected it takes nothing more.
@@ -20,6 +21,7 @@ public:
     explicit Reader(std::string_view text) : rest_{text} {}
 
     void take(Deviation& out);
+    void take(std::optional<ProvedRounding>& out);
     void take(Cost& out);
     /// The rest of the line.
     void take(std::string& out);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <mutex>
 
 namespace lobe::analyze {
 namespace {
@@ -194,6 +195,38 @@ private:
     std::size_t most_forms_ = 0;
 };
 
+/// The rounding of what could be emitted, in both formats that the evaluator has; packed half is
+/// half twice.
+void prove(Trade& trade, const TradeSubject& subject, const ParetoOptions& options)
+{
+    std::vector<std::size_t> asked;
+    for (std::size_t i = 0; i < trade.candidates.size(); ++i) {
+        const Candidate& candidate = trade.candidates[i];
+        if (candidate.spelling != Spelling::naive && candidate.format != Format::packed16)
+            asked.push_back(i);
+    }
+    std::mutex mutex;
+    Progress progress{0, asked.size(), "proofs"};
+    for_each_task(asked.size(), options.cost.jobs, [&](std::size_t task) {
+        Candidate& candidate = trade.candidates[asked[task]];
+        candidate.proved =
+            proved_rounding(subject.spelled(candidate.choice, candidate.spelling),
+                            candidate.format == Format::float32 ? evaluate::Precision::float32
+                                                                : evaluate::Precision::float16,
+                            grey_albedo, options.proof_boxes);
+        const std::scoped_lock lock{mutex};
+        ++progress.done;
+        if (options.progress) options.progress(progress);
+    });
+    for (std::size_t i = 1; i < trade.candidates.size(); ++i) {
+        const Candidate& half = trade.candidates[i - 1];
+        Candidate& packed = trade.candidates[i];
+        if (packed.format == Format::packed16 && half.format == Format::float16 &&
+            half.choice == packed.choice && half.spelling == packed.spelling)
+            packed.proved = half.proved;
+    }
+}
+
 }  // namespace
 
 Trade trade(const TradeSubject& subject, const FoundNames& found, const ParetoOptions& options,
@@ -208,6 +241,7 @@ Trade trade(const TradeSubject& subject, const FoundNames& found, const ParetoOp
     errors.run(out, ledger);
     const std::string costs = fill_in_costs(out, subject, ledger, options, measurer);
     if (!costs.empty()) out.search += "; " + costs;
+    if (options.proofs && !subject.is_model()) prove(out, subject, options);
     for (Candidate& table : errors.tables()) out.candidates.push_back(std::move(table));
     judge(out);
     return out;
