@@ -14,6 +14,9 @@ struct Embedded {
 /// docs/diagnostics/*.md
 std::span<const Embedded> embedded_diagnostic_pages();
 
+/// models/lights.lobe
+std::span<const Embedded> embedded_lights();
+
 /// templates/**
 std::span<const Embedded> embedded_templates();
 

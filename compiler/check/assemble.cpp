@@ -110,6 +110,8 @@ ir::Module assemble(Program& program, Declarations declarations, const Sources& 
     module.doc = comments_text(root.tree.header);
     module.effects = std::move(declarations.effects);
     module.models = std::move(declarations.models);
+    module.lights = std::move(declarations.lights);
+    module.shadings = std::move(declarations.shadings);
     module.gbuffers = std::move(declarations.gbuffers);
     module.packings = std::move(declarations.packings);
     module.engines = std::move(declarations.engines);

@@ -9,6 +9,8 @@ namespace lobe::check {
 struct Declarations {
     std::vector<ir::Effect> effects;
     std::vector<ir::Model> models;
+    std::vector<ir::Model> lights;
+    std::vector<ir::Shading> shadings;
     std::vector<ir::Gbuffer> gbuffers;
     std::vector<ir::Packing> packings;
     std::vector<ir::Engine> engines;

@@ -53,9 +53,9 @@ constexpr std::array builtins{
 };
 
 constexpr std::array<std::string_view, 3> constants{"pi", "true", "false"};
-constexpr std::array<std::string_view, 11> types{"float",     "int",      "bool",   "float2",
-                                                 "float3",    "float4",   "unit",   "color",
-                                                 "direction", "geometry", "surface"};
+constexpr std::array<std::string_view, 12> types{"float",     "int",      "bool",    "float2",
+                                                 "float3",    "float4",   "unit",    "color",
+                                                 "direction", "geometry", "surface", "emitter"};
 
 struct Translation {
     std::string_view other;

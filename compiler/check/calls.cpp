@@ -97,6 +97,7 @@ Value Lowering::lower_call(const Call& call, const Span& span)
             return lower_term_call(program_.callables[declared.index], call, span);
         case NameKind::parameter: return not_callable("a parameter", declared.span);
         case NameKind::model:
+        case NameKind::light:
         case NameKind::output:
         case NameKind::gbuffer:
         case NameKind::code: return not_callable(describe(declared.kind), declared.span);
@@ -324,6 +325,9 @@ Value Lowering::lower_term_call(const Callable& callable, const Call& call, cons
             break;
         case ir::Origin::surface:
             operands.push_back(draft_.surface(static_cast<ir::SurfaceField>(input.which), span));
+            break;
+        case ir::Origin::emitter:
+            operands.push_back(draft_.emitter(static_cast<ir::EmitterField>(input.which), span));
             break;
         case ir::Origin::parameter:
             operands.push_back(

@@ -58,7 +58,8 @@ public:
         }
         for (std::size_t i = 0; i < program_.models.size(); ++i) {
             if (enough()) return;
-            if (is_needed(program_, NameKind::model, i, program_.models[i].file)) lower_model(i);
+            const ModelDeclaration& declared = program_.models[i];
+            if (is_needed(program_, kind_of(declared), i, declared.file)) lower_model(i);
         }
         const File& root = program_.root();
         for (const syntax::Item& item : root.tree.items) {
@@ -72,6 +73,27 @@ public:
                                                  condition, effect->name_span});
             }
         }
+    }
+
+    /// Every model that the root has or imports, under every such light.
+    void join_lights()
+    {
+        Scope& names = program_.root().names;
+        const auto visible = [&](NameKind kind) {
+            std::vector<Declared*> found;
+            for (std::size_t i = 0; i < program_.models.size(); ++i)
+                for (auto& [name, declared] : names)
+                    if (declared.kind == kind && declared.index == i && program_.models[i].model)
+                        found.push_back(&declared);
+            return found;
+        };
+        for (Declared* model : visible(NameKind::model))
+            for (Declared* light : visible(NameKind::light)) {
+                model->used = light->used = true;
+                declarations_.shadings.push_back({*program_.models[model->index].model,
+                                                  *program_.models[light->index].model,
+                                                  {}});
+            }
     }
 
     /// Whether decode undoes encode; a packing that uses them is looked at all the same.
@@ -162,7 +184,8 @@ private:
             if (const auto function = settle(outputs[i], found))
                 result.outputs.push_back({node.outputs[i].name.text, *function});
         declared.broken = result.outputs.size() < node.outputs.size();
-        if (declared.file + 1 == program_.files.size()) declarations_.models.push_back(result);
+        if (declared.file + 1 == program_.files.size())
+            (node.is_light ? declarations_.lights : declarations_.models).push_back(result);
         declared.model = std::move(result);
         forward_from(declared.file, found);
     }
@@ -215,6 +238,7 @@ std::optional<ir::Module> check_program(Sources& sources, std::uint32_t root, co
     Checking checking{program, sources, diagnostics};
     checking.lower_callables();
     checking.lower_items();
+    checking.join_lights();
     if (!diagnostics.has_errors()) report_collisions(program, diagnostics);
     const bool proved = !diagnostics.has_errors();
     checking.check_codes();

@@ -23,10 +23,10 @@ struct NamedType {
     bool bounded = false;  ///< the name itself promises the range
 };
 
-const std::array<NamedType, 11>& named_types()
+const std::array<NamedType, 12>& named_types()
 {
     constexpr ir::Range unit{0, 1};
-    static const std::array<NamedType, 11> types{
+    static const std::array<NamedType, 12> types{
         NamedType{"float", number_type, everything},
         NamedType{"int", integer_type, everything},
         NamedType{"bool", boolean_type, unit},
@@ -39,6 +39,7 @@ const std::array<NamedType, 11>& named_types()
         NamedType{"direction", direction_type, {-1, 1}},
         NamedType{"geometry", {{}, {}, Structure::geometry}, everything},
         NamedType{"surface", {{}, {}, Structure::surface}, everything},
+        NamedType{"emitter", {{}, {}, Structure::emitter}, everything},
     };
     return types;
 }
@@ -55,7 +56,7 @@ void report_unknown_type(const syntax::Identifier& name, Diagnostics& diagnostic
                                      : did_you_mean(name.text, candidates)),
         .primary = {name.span, ""},
         .notes = {"the types are float, int, bool, float2, float3, float4, unit, color, "
-                  "direction, geometry and surface"}};
+                  "direction, geometry, surface and emitter"}};
     diagnostic.fix = other ? Fix{name.span, *other, fmt::format("write `{}`", *other)}
                            : rename_fix(name.text, name.span, candidates);
     diagnostics.report(std::move(diagnostic));
@@ -115,7 +116,7 @@ std::optional<DeclaredType> resolve_type(const syntax::Tree& tree, const syntax:
         return std::nullopt;
     };
     if (found->type.structure != Structure::none && place != Place::argument)
-        return misplaced(fmt::format("a {} cannot be {}", clause.name.text,
+        return misplaced(fmt::format("{} cannot be {}", describe(found->type),
                                      place == Place::result ? "a result" : "a parameter"),
                          clause.name.span);
 

@@ -8,21 +8,10 @@ namespace lobe::check {
 
 using ir::ExprId;
 using ir::Origin;
-using ir::Quantity;
 
 namespace {
 
 constexpr std::size_t after_arguments = std::numeric_limits<std::size_t>::max();
-
-Quantity quantity_of(ir::GeometryField field)
-{
-    return ir::facts(field).type == ir::Type::vec3 ? Quantity::direction : Quantity::number;
-}
-
-Quantity quantity_of(ir::SurfaceField field)
-{
-    return ir::facts(field).type == ir::Type::vec3 ? Quantity::color : Quantity::number;
-}
 
 }  // namespace
 
@@ -47,22 +36,27 @@ ExprId Draft::add_argument(const Argument& argument, std::size_t position)
 
 void Draft::set_structure_position(Structure structure, std::size_t position)
 {
-    if (structure == Structure::geometry) geometry_position_ = position;
-    if (structure == Structure::surface) surface_position_ = position;
+    if (structure == Structure::geometry) {
+        takes_geometry_ = true;
+        geometry_ = {position, 0};
+    }
+    if (structure == Structure::surface) surface_ = {position, 0};
+    if (structure != Structure::emitter) return;
+    emitter_ = {position, 0};
+    // Its v and n are a geometry's, and stand behind its own fields where no geometry is taken.
+    const auto fields = static_cast<std::uint32_t>(ir::EmitterField::distance_squared) + 1;
+    if (!takes_geometry_) geometry_ = {position, fields};
+}
+
+ExprId Draft::field(Origin origin, std::uint32_t which, Key key, const Span& span)
+{
+    key.which += which;
+    return input(ir::field_input(origin, which, span), key, span);
 }
 
 ExprId Draft::geometry(ir::GeometryField field, const Span& span)
 {
-    const ir::FieldFacts& known = ir::facts(field);
-    const auto which = static_cast<std::uint32_t>(field);
-    return input({std::string{known.name},
-                  known.type,
-                  quantity_of(field),
-                  {known.low, known.high},
-                  Origin::geometry,
-                  which,
-                  span},
-                 {geometry_position_, which}, span);
+    return this->field(Origin::geometry, static_cast<std::uint32_t>(field), geometry_, span);
 }
 
 ExprId Draft::surface(ir::SurfaceField field, const Span& span)
@@ -71,16 +65,34 @@ ExprId Draft::surface(ir::SurfaceField field, const Span& span)
         const ExprId roughness = surface(ir::SurfaceField::roughness, span);
         return function.graph.apply(ir::Op::multiply, {roughness, roughness}, span);
     }
-    const ir::FieldFacts& known = ir::facts(field);
-    const auto which = static_cast<std::uint32_t>(field);
-    return input({std::string{known.name},
-                  known.type,
-                  quantity_of(field),
-                  {known.low, known.high},
-                  Origin::surface,
-                  which,
-                  span},
-                 {surface_position_, which}, span);
+    return this->field(Origin::surface, static_cast<std::uint32_t>(field), surface_, span);
+}
+
+ExprId Draft::emitter(ir::EmitterField field, const Span& span)
+{
+    using Field = ir::EmitterField;
+    ir::EmitterFrame frame;
+    switch (field) {
+    case Field::v: return geometry(ir::GeometryField::v, span);
+    case Field::n: return geometry(ir::GeometryField::n, span);
+    case Field::l:
+    case Field::distance_squared: frame.to_light = emitter(Field::to_light, span); break;
+    case Field::r:
+        frame.v = geometry(ir::GeometryField::v, span);
+        frame.n = geometry(ir::GeometryField::n, span);
+        break;
+    case Field::to_light:
+    case Field::axis:
+    case Field::radius:
+    case Field::half_length:
+    case Field::inverse_range:
+    case Field::cos_inner:
+    case Field::cos_outer:
+        return this->field(Origin::emitter, static_cast<std::uint32_t>(field), emitter_, span);
+    }
+    const ExprId result = ir::expand(function.graph, field, frame);
+    function.graph.set_name(result, ir::facts(field).name);
+    return result;
 }
 
 ExprId Draft::parameter(const ir::Parameter& parameter, std::uint32_t index, const Span& span)

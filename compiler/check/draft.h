@@ -19,6 +19,7 @@ public:
 
     ir::ExprId geometry(ir::GeometryField field, const Span& span);
     ir::ExprId surface(ir::SurfaceField field, const Span& span);
+    ir::ExprId emitter(ir::EmitterField field, const Span& span);
     ir::ExprId parameter(const ir::Parameter& parameter, std::uint32_t index, const Span& span);
 
     /// The function with its inputs in their final order and nothing that the result does not
@@ -33,10 +34,13 @@ private:
     };
 
     ir::ExprId input(ir::Input input, Key key, const Span& span);
+    ir::ExprId field(ir::Origin origin, std::uint32_t which, Key key, const Span& span);
 
     std::vector<Key> keys_;  ///< per input
-    std::size_t geometry_position_ = 0;
-    std::size_t surface_position_ = 0;
+    bool takes_geometry_ = false;
+    Key geometry_{};  ///< where fields stand whose `which` is 0
+    Key surface_{};
+    Key emitter_{};
 };
 
 }  // namespace lobe::check

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace lobe::check {
 
@@ -52,6 +53,104 @@ void describe_function(ir::Function& function, const File& file,
     function.doc = std::move(documentation.text);
     function.citations = std::move(documentation.citations);
     function.module = file.name;
+}
+
+/// A model makes nothing of a light but its direction, and a light makes that direction.
+void refuse_structures(const syntax::ModelItem& model, Signature& signature,
+                       Diagnostics& diagnostics)
+{
+    for (const Argument& argument : signature.arguments) {
+        const Structure structure = argument.type.type.structure;
+        const bool is_emitter = structure == Structure::emitter;
+        const bool fits =
+            model.is_light ? is_emitter || structure == Structure::surface : !is_emitter;
+        if (argument.broken || fits) continue;
+        Diagnostic diagnostic{
+            .code = Code::misplaced_type,
+            .message = model.is_light
+                           ? fmt::format("a light takes an emitter and a surface, and this is {}",
+                                         describe(argument.type.type))
+                           : "a model takes no emitter",
+            .primary = {argument.type.span, ""}};
+        if (is_emitter)
+            diagnostic.notes = {"a model is what light from one direction becomes; where the light "
+                                "is, and how much of it arrives, is a `light`'s affair"};
+        else if (structure == Structure::geometry)
+            diagnostic.notes = {"a geometry has the direction that a light is there to find; an "
+                                "emitter has `v` and `n`"};
+        diagnostics.report(std::move(diagnostic));
+        signature.broken = true;
+    }
+}
+
+struct LightOutput {
+    std::string_view name;
+    ValueType type;
+    bool required = false;
+};
+
+// What a light is made of; see ir::Model.
+constexpr std::array light_outputs{
+    LightOutput{"direction", direction_type, true},
+    LightOutput{"irradiance", number_type, true},
+    LightOutput{"specular_direction", direction_type},
+    LightOutput{"specular_gain", number_type},
+};
+
+const LightOutput* find_light_output(std::string_view name)
+{
+    const auto* found = std::ranges::find(light_outputs, name, &LightOutput::name);
+    return found == light_outputs.end() ? nullptr : found;
+}
+
+/// A light has the outputs that make one, and no others.
+void check_outputs(const File& file, const syntax::ModelItem& light, Diagnostics& diagnostics)
+{
+    for (const syntax::Output& output : light.outputs) {
+        if (find_light_output(output.name.text) != nullptr) continue;
+        std::vector<std::string> known;
+        for (const LightOutput& each : light_outputs) known.emplace_back(each.name);
+        diagnostics.report({.code = Code::light_outputs,
+                            .message = fmt::format("a light has no `{}`{}", output.name.text,
+                                                   did_you_mean(output.name.text, known)),
+                            .primary = {output.name.span, ""},
+                            .notes = {fmt::format("its outputs are {}", fmt::join(known, ", "))},
+                            .fix = rename_fix(output.name.text, output.name.span, known)});
+    }
+    if (file.broken) return;
+    for (const LightOutput& wanted : light_outputs) {
+        const bool has = std::ranges::any_of(light.outputs, [&](const syntax::Output& output) {
+            return output.name.text == wanted.name;
+        });
+        if (wanted.required && !has)
+            diagnostics.report(
+                {.code = Code::light_outputs,
+                 .message = fmt::format("the light `{}` has no `{}`", light.name.text, wanted.name),
+                 .primary = {light.name.span, ""},
+                 .helps = {wanted.name == "direction"
+                               ? "say where the point is lit from: `direction = e.l`"
+                               : "say what arrives of the light's intensity, without the cosine of "
+                                 "its angle: `irradiance = 1 / e.distance_squared else 0`"}});
+    }
+}
+
+/// The value of an output as what it is to be. Reports what does not fit.
+Value convert_output(Lowering& lowering, const Value& value, const syntax::ModelItem& model,
+                     const syntax::Output& output, const Span& span, Diagnostics& diagnostics)
+{
+    if (!value.good) return {};
+    if (model.is_light) {
+        const LightOutput* wanted = find_light_output(output.name.text);
+        if (wanted == nullptr) return {};
+        return lowering.convert(value, wanted->type, span,
+                                fmt::format("the `{}` of a light", wanted->name), std::nullopt);
+    }
+    if (is_number(value.type) || value.type == color_type) return value;
+    diagnostics.report({.code = Code::type_mismatch,
+                        .message = fmt::format("an output is a number or a color, and this is {}",
+                                               describe(value.type)),
+                        .primary = {span, ""}});
+    return {};
 }
 
 void set_result(Lowered& lowered, const Value& value)
@@ -122,8 +221,9 @@ std::vector<Lowered> lower_model(Program& program, const ModelDeclaration& decla
 {
     const syntax::ModelItem& model = *declared.node;
     const File& file = *program.files[declared.file];
-    const Signature signature =
-        resolve_signature(file.tree, model.parameters, std::nullopt, diagnostics);
+    Signature signature = resolve_signature(file.tree, model.parameters, std::nullopt, diagnostics);
+    refuse_structures(model, signature, diagnostics);
+    if (model.is_light) check_outputs(file, model, diagnostics);
 
     std::vector<Lowered> result;
     std::map<std::string, Lowering::Local> unused;
@@ -152,16 +252,10 @@ std::vector<Lowered> lower_model(Program& program, const ModelDeclaration& decla
             lowered.draft.limits.clear();
         }
         lets.report_to(diagnostics);
-        Value value = lets.lower(output.value);
-        if (value.good && !is_number(value.type) && value.type != color_type) {
-            diagnostics.report(
-                {.code = Code::type_mismatch,
-                 .message = fmt::format("an output is a number or a color, and this is {}",
-                                        describe(value.type)),
-                 .primary = {file.tree[output.value].span, ""}});
-            value = {};
-        }
-        if (!signature.broken) set_result(lowered, value);
+        const Value value = lets.lower(output.value);
+        if (output.value.valid() && !signature.broken)
+            set_result(lowered, convert_output(lets, value, model, output,
+                                               file.tree[output.value].span, diagnostics));
 
         for (const auto& [name, local] : lets.locals()) {
             if (!local.is_let) continue;

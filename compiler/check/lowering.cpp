@@ -187,6 +187,7 @@ Value Lowering::lower_declared(const std::string& name, Declared& declared, cons
         return {};
     }
     case NameKind::model:
+    case NameKind::light:
     case NameKind::output:
     case NameKind::gbuffer:
     case NameKind::code: {

@@ -43,6 +43,14 @@ std::vector<std::string> geometry_fields()
     return names;
 }
 
+std::vector<std::string> emitter_fields()
+{
+    std::vector<std::string> names;
+    for (int i = 0; i <= static_cast<int>(ir::EmitterField::distance_squared); ++i)
+        names.emplace_back(ir::facts(static_cast<ir::EmitterField>(i)).name);
+    return names;
+}
+
 std::vector<std::string> surface_fields()
 {
     std::vector<std::string> names;
@@ -113,6 +121,17 @@ Value Lowering::lower_member(const syntax::Member& member, const Span& span)
         if (!field) return unknown_member(member, base.type, surface_fields());
         const bool vector = ir::facts(*field).type == ir::Type::vec3;
         return good(vector ? color_type : number_type, draft_.surface(*field, span));
+    }
+
+    if (base.type.structure == Structure::emitter) {
+        const auto field = ir::find_emitter_field(name);
+        if (!field) return unknown_member(member, base.type, emitter_fields());
+        const bool vector = ir::facts(*field).type == ir::Type::vec3;
+        const bool is_free = *field == ir::EmitterField::to_light;
+        return good(is_free  ? vector_type(3)
+                    : vector ? direction_type
+                             : number_type,
+                    draft_.emitter(*field, span));
     }
 
     const int count = is_vector(base.type) ? ir::components(base.type.type) : 0;

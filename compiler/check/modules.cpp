@@ -139,7 +139,8 @@ std::string_view describe(NameKind kind)
     case NameKind::callable: return "a term";
     case NameKind::parameter: return "a parameter";
     case NameKind::model: return "a model";
-    case NameKind::output: return "an output of a model";
+    case NameKind::light: return "a light";
+    case NameKind::output: return "an output";
     case NameKind::gbuffer: return "a gbuffer";
     case NameKind::code: return "a code";
     case NameKind::lost: return "";

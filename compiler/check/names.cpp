@@ -135,12 +135,12 @@ private:
             .primary = {name.span, ""},
             .fix = rename_fix(name.text, name.span, exported)};
         if (const auto found = other.names.find(name.text); found != other.names.end()) {
-            diagnostic.secondary.push_back(
-                {found->second.span, found->second.imported ? "it only imports it, here"
-                                                            : "this is an output of a model"});
-            diagnostic.notes.push_back(found->second.imported
-                                           ? "names are imported from the module that declares them"
-                                           : "an output comes along with its model: import that");
+            diagnostic.secondary.push_back({found->second.span, found->second.imported
+                                                                    ? "it only imports it, here"
+                                                                    : "this is an output"});
+            diagnostic.notes.push_back(
+                found->second.imported ? "names are imported from the module that declares them"
+                                       : "an output comes along with what it is of: import that");
         }
         diagnostics_.report(std::move(diagnostic));
     }
@@ -193,7 +193,9 @@ private:
     void declare_model(const syntax::Item& item, const syntax::ModelItem& model)
     {
         program_.models.push_back({index_, &item, &model, {}});
-        enter(model.name, {NameKind::model, program_.models.size() - 1, model.name.span}, "model");
+        enter(model.name,
+              {kind_of(program_.models.back()), program_.models.size() - 1, model.name.span},
+              model.is_light ? "light" : "model");
         std::map<std::string, Span> outputs;
         for (const syntax::Output& output : model.outputs) {
             const auto [found, added] = outputs.try_emplace(output.name.text, output.name.span);

@@ -181,7 +181,7 @@ std::vector<std::size_t> lowering_order(const Program& program, Diagnostics& dia
             visit(*program.files[root], effect->off_when);
     for (std::size_t i = 0; i < program.models.size(); ++i) {
         const ModelDeclaration& model = program.models[i];
-        if (!is_needed(program, NameKind::model, i, model.file)) continue;
+        if (!is_needed(program, kind_of(model), i, model.file)) continue;
         const File& file = *program.files[model.file];
         for (const syntax::Let& let : model.node->lets) visit(file, let.value);
         for (const syntax::Output& output : model.node->outputs) visit(file, output.value);

@@ -52,7 +52,7 @@ struct Callable {
     std::optional<ir::FunctionId> function;  ///< once lowered without errors
 };
 
-/// A `model` of a file.
+/// A `model` or `light` of a file.
 struct ModelDeclaration {
     std::size_t file = 0;
     const syntax::Item* item = nullptr;
@@ -82,6 +82,7 @@ enum class NameKind {
     callable,
     parameter,
     model,
+    light,
     output,
     gbuffer,
     code,
@@ -124,6 +125,12 @@ struct Program {
 
     File& root() { return *files.back(); }
 };
+
+/// What the name of a model or light stands for.
+inline NameKind kind_of(const ModelDeclaration& declared)
+{
+    return declared.node->is_light ? NameKind::light : NameKind::model;
+}
 
 /// With its article: "a term", "a model", "a gbuffer".
 std::string_view describe(NameKind kind);

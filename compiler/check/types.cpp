@@ -31,6 +31,7 @@ std::string spell(const ValueType& type)
     switch (type.structure) {
     case Structure::geometry: return "geometry";
     case Structure::surface: return "surface";
+    case Structure::emitter: return "emitter";
     case Structure::none: break;
     }
     switch (type.quantity) {
@@ -51,7 +52,7 @@ std::string describe(const ValueType& type)
         if (type.quantity == Quantity::integer) return "a whole number";
         if (type.quantity == Quantity::boolean) return "a condition";
     }
-    return "a " + spell(type);
+    return (type.structure == Structure::emitter ? "an " : "a ") + spell(type);
 }
 
 Joined join(const ValueType& a, const ValueType& b)

@@ -13,7 +13,8 @@ namespace lobe::check {
 enum class Structure {
     none,
     geometry,
-    surface
+    surface,
+    emitter
 };
 
 struct ValueType {

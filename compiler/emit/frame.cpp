@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 namespace lobe::emit {
 namespace {
@@ -19,13 +21,13 @@ std::string upper(std::string text)
 }
 
 /// The files of the target's dialect, begun if there are none.
-template <class Files>
+template <class Files, class... Part>
 Files& serving(std::vector<Files>& files, const ir::Module& module, const Sources& sources,
-               const Target& target)
+               const Target& target, Part... part)
 {
     for (Files& known : files)
         if (known.serves(target)) return known;
-    return files.emplace_back(module, sources, target);
+    return files.emplace_back(module, sources, target, part...);
 }
 
 }  // namespace
@@ -56,6 +58,30 @@ std::string include_guard(const ir::Module& module, const Target& target, std::s
                              target.extension.substr(1)));
 }
 
+std::vector<ir::FunctionId> roots_of(const ir::Module& module, Part part)
+{
+    return part == Part::own ? module.roots() : module.shading_roots();
+}
+
+std::string file_stem(const ir::Module& module, Part part)
+{
+    return part == Part::own ? module.name : module.name + "_lights";
+}
+
+std::vector<std::string> names_of_shared(const ir::Module& module, const Sources& sources,
+                                         const Target& target,
+                                         const std::vector<ir::FunctionId>& roots)
+{
+    const std::vector<ir::FunctionId> own = module.reachable(module.roots());
+    std::vector<ir::FunctionId> shared;
+    std::ranges::set_intersection(own, module.reachable(roots), std::back_inserter(shared));
+    std::vector<std::string> names;
+    if (shared.empty()) return names;
+    const Listing listing{module, sources, dialect(target), own, function_prefix(module, target)};
+    for (const ir::FunctionId id : shared) names.push_back(listing.name_of(id));
+    return names;
+}
+
 std::vector<Record> module_doc(const ir::Module& module)
 {
     return lines(paragraphs(module.doc, 96));
@@ -72,14 +98,17 @@ std::vector<Artifact> emit(const ir::Module& module, const Sources& sources,
                            const std::vector<const Target*>& targets)
 {
     std::vector<Artifact> artifacts;
-    std::vector<ShadingFiles> files;  // one per dialect
+    std::array<std::vector<ShadingFiles>, 2> files;  // per part, one per dialect
     std::vector<PackingFiles> packings;
-    const bool has_own = !module.roots().empty();
     for (const Target* target : targets) {
-        if (has_own)
-            artifacts.push_back(target->name == "ue4"
-                                    ? emit_unreal(module, sources, *target)
-                                    : serving(files, module, sources, *target).artifact(*target));
+        for (const Part part : {Part::own, Part::shading}) {
+            if (roots_of(module, part).empty()) continue;
+            auto& known = files[part == Part::own ? 0 : 1];
+            artifacts.push_back(
+                target->name == "ue4"
+                    ? emit_unreal(module, sources, *target, part)
+                    : serving(known, module, sources, *target, part).artifact(*target));
+        }
         if (!module.packings.empty())
             artifacts.push_back(serving(packings, module, sources, *target).artifact(*target));
     }

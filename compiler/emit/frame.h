@@ -39,18 +39,35 @@ std::vector<std::string> root_calls(const ir::Module& module,
 /// Places of an artifact that now stands `lines` further down in a text.
 std::vector<LineOrigin> moved_down(std::vector<LineOrigin> origins, int lines);
 
+/// What a file of a module is about.
+enum class Part {
+    own,     ///< its models, lights and terms
+    shading  ///< its models under its lights: needs no other file, may stand beside it
+};
+std::vector<ir::FunctionId> roots_of(const ir::Module& module, Part part);
+/// `callisto`, `callisto_lights`
+std::string file_stem(const ir::Module& module, Part part);
+
+/// Names that the module's own file has for functions that a file with these roots has too: both
+/// files may stand in one shader.
+std::vector<std::string> names_of_shared(const ir::Module& module, const Sources& sources,
+                                         const Target& target,
+                                         const std::vector<ir::FunctionId>& roots);
+
 /// The files of one module for GLSL, ESSL or HLSL. Those of one dialect say the same, but for
 /// whether they state a precision.
 class ShadingFiles {
 public:
     /// Everything that the targets of this one's dialect share.
-    ShadingFiles(const ir::Module& module, const Sources& sources, const Target& target);
+    ShadingFiles(const ir::Module& module, const Sources& sources, const Target& target,
+                 Part part = Part::own);
 
     bool serves(const Target& target) const { return &dialect(target) == dialect_; }
     Artifact artifact(const Target& target);
 
 private:
     std::string module_;
+    std::string stem_;
     const Dialect* dialect_;
     Record values_;
     std::vector<std::string> calls_;
@@ -58,6 +75,7 @@ private:
     std::array<std::optional<Rendered>, 2> rendered_;  ///< without and with precision
 };
 
-Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Target& target);
+Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Target& target,
+                     Part part = Part::own);
 
 }  // namespace lobe::emit

@@ -167,15 +167,20 @@ std::vector<Record> Listing::comment(const ir::Function& function,
         const ir::FieldFacts& field = ir::facts(static_cast<ir::GeometryField>(input.which));
         if (!field.nameable) add(fmt::format("{} is {}.", inputs[i], field.doc));
     }
+    if (function.kind == ir::Function::Kind::shade)
+        for (std::size_t i = 0; i < function.inputs.size(); ++i)
+            if (const ir::Input& input = function.inputs[i]; input.origin == ir::Origin::emitter)
+                add(fmt::format("{} is {}.", inputs[i],
+                                ir::facts(static_cast<ir::EmitterField>(input.which)).doc));
 
-    // Fields and parameters have the ranges that their structures state.
+    // Fields of surfaces and parameters have the ranges that their structures state.
     std::string ranges;
     for (std::size_t i = 0; i < function.inputs.size(); ++i) {
         const ir::Input& input = function.inputs[i];
         const std::string range = range_text(input.range);
-        if (range.empty() || input.origin != ir::Origin::argument ||
-            input.quantity == ir::Quantity::direction)
-            continue;
+        const bool stated =
+            input.origin != ir::Origin::argument && input.origin != ir::Origin::emitter;
+        if (range.empty() || stated || input.quantity == ir::Quantity::direction) continue;
         ranges += fmt::format("{}{} in {}", ranges.empty() ? "Expects " : ", ", inputs[i], range);
     }
     if (!ranges.empty()) ranges += ". ";

@@ -35,6 +35,7 @@ ModelInputs inputs_of(const ir::Module& module, const ir::Model& model, const Di
             }
             case ir::Origin::surface: add(surface, input); break;
             case ir::Origin::parameter: add(parameters, input); break;
+            case ir::Origin::emitter: break;  // a model knows no light
             case ir::Origin::argument: add(result.arguments, input); break;
             }
         }

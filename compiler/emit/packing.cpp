@@ -7,29 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 
 namespace lobe::emit {
 namespace {
 
 constexpr std::string_view gbuffer_prefix = "GBuffer.";
-
-/// Names that the module's own file has for functions that are written here too: both files may
-/// stand in one shader.
-std::vector<std::string> names_of_shared(const ir::Module& module, const Sources& sources,
-                                         const Target& target)
-{
-    const std::vector<ir::FunctionId> own = module.reachable(module.roots());
-    std::vector<ir::FunctionId> shared;
-    std::ranges::set_intersection(own, module.reachable(module.packing_roots()),
-                                  std::back_inserter(shared));
-    std::vector<std::string> names;
-    if (shared.empty()) return names;
-    const Listing listing{module, sources, dialect(target), own, function_prefix(module, target)};
-    for (const ir::FunctionId id : shared) names.push_back(listing.name_of(id));
-    return names;
-}
 
 /// The packing's title, its own documentation and its layout.
 Record layout_record(const ir::Module& module, const ir::Packing& packing)
@@ -105,7 +88,8 @@ std::optional<GbufferAccess> gbuffer_access(const ir::Module& module, std::size_
 PackingFiles::PackingFiles(const ir::Module& module, const Sources& sources, const Target& target)
     : module_(module), dialect_(&dialect(target)),
       listing_(module, sources, *dialect_, module.reachable(module.packing_roots()),
-               function_prefix(module, target), names_of_shared(module, sources, target))
+               function_prefix(module, target),
+               names_of_shared(module, sources, target, module.packing_roots()))
 {
     calls_ = root_calls(module, module.packing_roots(), listing_, *dialect_);
     values_.texts = {{"banner", banner(module)}};

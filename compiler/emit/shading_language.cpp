@@ -116,6 +116,7 @@ private:
                     return text.input(surface + member(inputs_.surface, input), input.type);
                 case ir::Origin::parameter:
                     return text.input(parameters + member(inputs_.parameters, input), input.type);
+                case ir::Origin::emitter:
                 case ir::Origin::argument: break;
                 }
                 for (std::size_t i = 0; i < own.size(); ++i)
@@ -233,18 +234,23 @@ std::vector<std::string> root_calls(const ir::Module& module,
     return calls;
 }
 
-ShadingFiles::ShadingFiles(const ir::Module& module, const Sources& sources, const Target& target)
-    : module_(module.name), dialect_(&dialect(target)),
-      listing_(module, sources, *dialect_, module.reachable(module.roots()),
-               function_prefix(module, target))
+ShadingFiles::ShadingFiles(const ir::Module& module, const Sources& sources, const Target& target,
+                           Part part)
+    : module_(module.name), stem_(file_stem(module, part)), dialect_(&dialect(target)),
+      listing_(module, sources, *dialect_, module.reachable(roots_of(module, part)),
+               function_prefix(module, target),
+               part == Part::own ? std::vector<std::string>{}
+                                 : names_of_shared(module, sources, target, roots_of(module, part)))
 {
-    calls_ = root_calls(module, module.roots(), listing_, *dialect_);
-    values_.texts = {{"banner", banner(module)}, {"guard", include_guard(module, target)}};
+    calls_ = root_calls(module, roots_of(module, part), listing_, *dialect_);
+    values_.texts = {{"banner", banner(module)},
+                     {"guard", include_guard(module, target, part == Part::own ? "" : "lights")}};
     values_.lists["remarks"] = remarks(module);
     values_.lists["doc"] = module_doc(module);
     std::vector<Record> models;
-    for (const ir::Model& model : module.models)
-        models.push_back(ModelFrame{module, model, *dialect_, listing_}.record(calls_));
+    if (part == Part::own)
+        for (const ir::Model& model : module.models)
+            models.push_back(ModelFrame{module, model, *dialect_, listing_}.record(calls_));
     values_.lists["functions"] = listing_.functions();
     values_.lists["models"] = std::move(models);
     values_.lists["helpers"] = listing_.helpers();
@@ -260,7 +266,7 @@ Artifact ShadingFiles::artifact(const Target& target)
         values_.lists["precisions"] = std::vector<Record>(precise ? 1 : 0);
         rendered = render_embedded("glsl/module.glsl", values_);
     }
-    return {fmt::format("{}/{}/{}{}", module_, target.name, module_, target.extension),
+    return {fmt::format("{}/{}/{}{}", module_, target.name, stem_, target.extension),
             rendered->text, listing_.origins(rendered->marks), calls_};
 }
 

@@ -10,6 +10,7 @@
 
 #include "emit/frame.h"
 #include "emit/model.h"
+#include "ir/shade.h"
 
 #include <fmt/format.h>
 
@@ -298,10 +299,7 @@ private:
 
 }  // namespace
 
-bool is_before(const ir::ModelOutput& output)
-{
-    return output.name == "diffuse" || output.name == "transmission";
-}
+bool is_before(const ir::ModelOutput& output) { return !ir::follows_mirror(output); }
 
 std::string_view engine_output(const ir::ModelOutput& output)
 {
@@ -341,28 +339,33 @@ std::string_view gbuffer_field(ir::SurfaceField field)
     return {};
 }
 
-Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Target& target)
+Artifact emit_unreal(const ir::Module& module, const Sources& sources, const Target& target,
+                     Part part)
 {
     const Dialect& language = dialect(target);
-    Listing listing{module, sources, language, module.reachable(module.roots()),
-                    function_prefix(module, target)};
-    std::vector<std::string> calls = root_calls(module, module.roots(), listing, language);
+    const std::vector<ir::FunctionId> roots = roots_of(module, part);
+    std::vector<std::string> taken;
+    if (part != Part::own) taken = names_of_shared(module, sources, target, roots);
+    Listing listing{
+        module, sources, language, module.reachable(roots), function_prefix(module, target), taken};
+    std::vector<std::string> calls = root_calls(module, roots, listing, language);
 
     Record values;
     values.texts = {{"banner", banner(module)}};
     values.lists["remarks"] = remarks(module);
     values.lists["doc"] = module_doc(module);
     std::vector<Record> models;
-    for (const ir::Model& model : module.models)
-        models.push_back(ModelFrame{module, model, language, listing}.record(calls));
+    if (part == Part::own)
+        for (const ir::Model& model : module.models)
+            models.push_back(ModelFrame{module, model, language, listing}.record(calls));
     values.lists["functions"] = listing.functions();
     values.lists["models"] = std::move(models);
     values.lists["helpers"] = listing.helpers();
 
     Rendered rendered = render_embedded("ue4/module.ush", values);
     if (rendered.text.ends_with("\n\n")) rendered.text.pop_back();
-    return {fmt::format("{}/{}/{}{}", module.name, target.name, language.styled(module.name),
-                        target.extension),
+    return {fmt::format("{}/{}/{}{}", module.name, target.name,
+                        language.styled(file_stem(module, part)), target.extension),
             rendered.text, listing.origins(rendered.marks), std::move(calls)};
 }
 

@@ -52,6 +52,8 @@ struct ModelOutput {
     FunctionId function;
 };
 
+/// A `model`, or a `light`, whose outputs are `direction` and `irradiance` and, where they differ
+/// from these and from 1, `specular_direction` and `specular_gain`.
 struct Model {
     std::string name;
     std::string doc;

@@ -44,6 +44,30 @@ constexpr std::array surface_facts{
     FieldFacts{"f0", Type::vec3, 0, 1, true, "reflectance at normal incidence, linear RGB"},
 };
 
+// What the host counts lengths in: every whole number is a float up to here.
+constexpr double farthest = 0x1p24;
+// Of a source, and of an inverse range: 41 m in centimeters, and less than a millimeter in meters.
+constexpr double largest = 0x1p12;
+
+// ORDER EmitterField
+constexpr std::array emitter_facts{
+    FieldFacts{"to_light", Type::vec3, -farthest, farthest, true,
+               "the vector from the shaded point to the light's center"},
+    FieldFacts{"axis", Type::vec3, -1, 1, true,
+               "the unit vector along which a spot shines or a tube lies"},
+    FieldFacts{"radius", Type::scalar, 0, largest, true, "the radius of the source"},
+    FieldFacts{"half_length", Type::scalar, 0, largest, true, "half the length of a tube"},
+    FieldFacts{"inverse_range", Type::scalar, 0, largest, true,
+               "1 / the distance at which the light ends; 0 where it does not"},
+    FieldFacts{"cos_inner", Type::scalar, 0, 1, true, "the cosine of a spot's inner angle"},
+    FieldFacts{"cos_outer", Type::scalar, 0, 1, true, "the cosine of a spot's outer angle"},
+    FieldFacts{"v", Type::vec3, -1, 1, true, "unit vector to the eye"},
+    FieldFacts{"n", Type::vec3, -1, 1, true, "unit normal"},
+    FieldFacts{"l", Type::vec3, -1, 1, true, "unit vector to the light's center"},
+    FieldFacts{"r", Type::vec3, -1, 1, true, "the eye mirrored by the normal"},
+    FieldFacts{"distance_squared", Type::scalar, 0, 3 * farthest* farthest, true, "|to_light|^2"},
+};
+
 template <class Field, class Table>
 std::optional<Field> find(const Table& table, std::string_view name)
 {
@@ -64,6 +88,11 @@ const FieldFacts& facts(SurfaceField field)
     return surface_facts[static_cast<std::size_t>(field)];
 }
 
+const FieldFacts& facts(EmitterField field)
+{
+    return emitter_facts[static_cast<std::size_t>(field)];
+}
+
 std::optional<GeometryField> find_geometry_field(std::string_view name)
 {
     return find<GeometryField>(geometry_facts, name);
@@ -72,6 +101,35 @@ std::optional<GeometryField> find_geometry_field(std::string_view name)
 std::optional<SurfaceField> find_surface_field(std::string_view name)
 {
     return find<SurfaceField>(surface_facts, name);
+}
+
+std::optional<EmitterField> find_emitter_field(std::string_view name)
+{
+    return find<EmitterField>(emitter_facts, name);
+}
+
+ExprId expand(Graph& graph, EmitterField field, const EmitterFrame& frame)
+{
+    switch (field) {
+    case EmitterField::l: return graph.apply(Op::guarded_normalize, {frame.to_light});
+    case EmitterField::distance_squared:
+        return graph.apply(Op::dot, {frame.to_light, frame.to_light});
+    case EmitterField::r: {
+        const ExprId twice = graph.apply(
+            Op::multiply, {graph.literal("2"), graph.apply(Op::dot, {frame.n, frame.v})});
+        return graph.apply(Op::subtract, {graph.apply(Op::multiply, {twice, frame.n}), frame.v});
+    }
+    case EmitterField::to_light:
+    case EmitterField::axis:
+    case EmitterField::radius:
+    case EmitterField::half_length:
+    case EmitterField::inverse_range:
+    case EmitterField::cos_inner:
+    case EmitterField::cos_outer:
+    case EmitterField::v:
+    case EmitterField::n: break;
+    }
+    return {};
 }
 
 bool needs_tangents(GeometryField field)

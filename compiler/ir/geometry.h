@@ -1,4 +1,4 @@
-// The standard structures of the language, as fields: `geometry` and `surface`.
+// The standard structures of the language, as fields: `geometry`, `surface` and `emitter`.
 //
 // A function never receives a structure. It receives the fields that it uses, each as one input
 // (see `Input::origin`), so generated functions have the signatures a shader author would write.
@@ -24,6 +24,22 @@
 // Why they are accurate: the differences of vectors are exact where they are small (Sterbenz), and
 // a unit vector that rounding made longer by e moves |n - h|^2 / 2 by e (1 - cos_h) + e^2 / 2.
 // Source: the law of cosines for unit vectors, and the half angle of l and v.
+//
+// An emitter is one light as the shaded point sees it. Its v and n are those of a geometry; what
+// else it can be asked for follows from the vectors (`expand`):
+//
+//   to_light    from the point to the light's center, of any length; a directional light has none,
+//               and this is the unit vector towards it
+//   l           normalize(to_light); 0 where the light is the point
+//   r           the eye mirrored by the normal, 2 (n.v) n - v
+//   distance_squared   |to_light|^2
+//
+// A light's range is given by its inverse, as engines have it: none at all is 0 then, and no
+// division is left that could see it.
+//
+// Lengths are in whatever unit the host counts in. They go up to 2^24, the last number up to which
+// a float has every whole one: 168 km in centimeters. Sources and ranges go from 1/4096 to 4096 of
+// it, so that every square and product of two squares here is far from the ends of float.
 #pragma once
 
 #include "ir/graph.h"
@@ -66,6 +82,22 @@ enum class SurfaceField : std::uint8_t {
     f0,
 };
 
+/// What a function receives comes first, and is an input; what is made of it follows.
+enum class EmitterField : std::uint8_t {
+    to_light,
+    axis,
+    radius,
+    half_length,
+    inverse_range,
+    cos_inner,
+    cos_outer,
+    v,
+    n,
+    l,
+    r,
+    distance_squared,
+};
+
 /// What is known of a field without looking at any model.
 struct FieldFacts {
     std::string_view name;
@@ -78,10 +110,12 @@ struct FieldFacts {
 
 const FieldFacts& facts(GeometryField field);
 const FieldFacts& facts(SurfaceField field);
+const FieldFacts& facts(EmitterField field);
 
 /// The field with this name, if the language lets it be named.
 std::optional<GeometryField> find_geometry_field(std::string_view name);
 std::optional<SurfaceField> find_surface_field(std::string_view name);
+std::optional<EmitterField> find_emitter_field(std::string_view name);
 
 /// Where the vectors of a geometry are, in some graph.
 struct Frame {
@@ -103,6 +137,15 @@ struct Frame {
 /// The expression that computes a field from the vectors. Guarded: l = -v gives h = 0.
 /// Cosines are saturated; `sin2_h`, `one_minus_*` are saturated.
 ExprId expand(Graph& graph, GeometryField field, const Frame& frame);
+
+/// The vectors that the fields of an emitter are made of, in some graph; those that a field does
+/// not need may be invalid.
+struct EmitterFrame {
+    ExprId to_light, v, n;
+};
+
+/// The expression that computes a field that is no input: l, r, distance_squared.
+ExprId expand(Graph& graph, EmitterField field, const EmitterFrame& frame);
 
 /// True when a field needs the tangent frame.
 bool needs_tangents(GeometryField field);

@@ -38,6 +38,13 @@ public:
         for (ModelOutput& output : model.outputs) (*this)(output.function);
     }
 
+    void operator()(Shading& shading) const
+    {
+        (*this)(shading.model);
+        (*this)(shading.light);
+        (*this)(shading.function);
+    }
+
     void operator()(Packing& packing) const
     {
         (*this)(packing.model);
@@ -57,6 +64,8 @@ public:
         for (Function& function : module.functions) (*this)(function);
         for (Effect& effect : module.effects) (*this)(effect.off_when);
         for (Model& model : module.models) (*this)(model);
+        for (Model& light : module.lights) (*this)(light);
+        for (Shading& shading : module.shadings) (*this)(shading);
         for (Packing& packing : module.packings) (*this)(packing);
     }
 

@@ -3,8 +3,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace lobe::ir {
+
+Input field_input(Origin origin, std::uint32_t which, Span span)
+{
+    const auto made = [&](const FieldFacts& field, Quantity vector) {
+        return Input{std::string{field.name},
+                     field.type,
+                     field.type == Type::vec3 ? vector : Quantity::number,
+                     {field.low, field.high},
+                     origin,
+                     which,
+                     span};
+    };
+    switch (origin) {
+    case Origin::geometry:
+        return made(facts(static_cast<GeometryField>(which)), Quantity::direction);
+    case Origin::surface: return made(facts(static_cast<SurfaceField>(which)), Quantity::color);
+    case Origin::emitter: {
+        const auto field = static_cast<EmitterField>(which);
+        return made(facts(field),
+                    field == EmitterField::axis ? Quantity::direction : Quantity::vector);
+    }
+    case Origin::argument:
+    case Origin::parameter: break;
+    }
+    assert(false && "only structures have fields");
+    return {};
+}
 
 std::optional<std::uint32_t> Function::find_input(Origin origin, std::uint32_t which) const
 {
@@ -23,15 +51,32 @@ std::optional<FunctionId> Module::find(std::string_view function_name) const
 std::vector<FunctionId> Module::roots() const
 {
     std::vector<FunctionId> result;
-    for (const Model& model : models)
-        for (const ModelOutput& output : model.outputs) result.push_back(output.function);
+    for (const std::vector<Model>* list : {&models, &lights})
+        for (const Model& model : *list)
+            for (const ModelOutput& output : model.outputs) result.push_back(output.function);
     if (!result.empty()) return result;
 
     std::vector<bool> is_condition(functions.size());
     for (const Effect& effect : effects) is_condition[effect.off_when.index] = true;
     for (std::size_t i = 0; i < functions.size(); ++i)
-        if (owns(functions[i]) && !is_condition[i] && functions[i].kind != Function::Kind::storage)
+        if (owns(functions[i]) && !is_condition[i] &&
+            functions[i].kind != Function::Kind::storage &&
+            functions[i].kind != Function::Kind::shade)
             result.push_back(FunctionId{i});
+    return result;
+}
+
+std::vector<FunctionId> Module::shading_roots() const
+{
+    std::vector<FunctionId> result;
+    for (const Shading& shading : shadings) {
+        if (shading.function.valid()) {
+            result.push_back(shading.function);
+            continue;
+        }
+        for (const Model* model : {&shading.model, &shading.light})
+            for (const ModelOutput& output : model->outputs) result.push_back(output.function);
+    }
     return result;
 }
 
@@ -81,6 +126,8 @@ Module without_functions(const Module& module)
             .functions = {},
             .effects = module.effects,
             .models = module.models,
+            .lights = module.lights,
+            .shadings = module.shadings,
             .gbuffers = module.gbuffers,
             .packings = module.packings,
             .engines = module.engines,
@@ -120,14 +167,7 @@ Function entry_point(const Module& module, FunctionId id)
         return entry.graph.input(index, input.type, input.span);
     };
     const auto add_vector = [&add_input](GeometryField field) {
-        const FieldFacts& known = facts(field);
-        return add_input({std::string{known.name},
-                          known.type,
-                          Quantity::direction,
-                          {known.low, known.high},
-                          Origin::geometry,
-                          static_cast<std::uint32_t>(field),
-                          {}});
+        return add_input(field_input(Origin::geometry, static_cast<std::uint32_t>(field)));
     };
 
     bool geometry = false;
@@ -256,10 +296,18 @@ std::optional<std::string> verify(const Module& module)
                 return fmt::format("two functions are named {}", module.functions[i].name);
         if (auto broken = verify_function(module, i)) return broken;
     }
-    for (const Model& model : module.models)
+    const auto verify_outputs = [&](const Model& model) -> std::optional<std::string> {
         for (const ModelOutput& output : model.outputs)
             if (output.function.index >= module.functions.size())
-                return fmt::format("model {} has an output without a function", model.name);
+                return fmt::format("{} has an output without a function", model.name);
+        return std::nullopt;
+    };
+    for (const std::vector<Model>* list : {&module.models, &module.lights})
+        for (const Model& model : *list)
+            if (auto broken = verify_outputs(model)) return broken;
+    for (const Shading& shading : module.shadings)
+        for (const Model* model : {&shading.model, &shading.light})
+            if (auto broken = verify_outputs(*model)) return broken;
     for (const Packing& packing : module.packings)
         if (auto broken = verify_packing(module, packing)) return broken;
     for (const Engine& engine : module.engines)

@@ -23,12 +23,15 @@ enum class Origin : std::uint8_t {
     argument,   ///< declared in the term's own parameter list
     geometry,   ///< a field of the term's `geometry` argument; `which` is a GeometryField
     surface,    ///< a field of the term's `surface` argument; `which` is a SurfaceField
+    emitter,    ///< a field of the term's `emitter` argument; `which` is an EmitterField. Its v
+                ///< and n are those of a geometry
     parameter,  ///< a `param` of the module; `which` indexes Module::parameters
 };
 
 /// One input of a function. A call passes one operand per input of the callee, in order; for
 /// every origin but `argument` the operand is the caller's own input of the same origin and
-/// `which` (a term has at most one geometry and one surface, and cannot make another).
+/// `which` (a term has at most one structure of each kind, and cannot make another). Only what
+/// lights a model makes a geometry: see shade.h.
 struct Input {
     std::string name;  ///< as written, or the field's or parameter's name
     Type type{};
@@ -40,20 +43,25 @@ struct Input {
     bool complement = false;  ///< one minus the argument that was declared: a pass asked for it
 };
 
+/// The input for a field of a structure: its name, type and range as the structure has them.
+Input field_input(Origin origin, std::uint32_t which, Span span = {});
+
 /// `/// slides 85`
 struct Citation {
     std::string source;   ///< the name it was declared under
     std::string locator;  ///< "85", "eq 33"
 };
 
-/// A term, a form of one, one output of a model, or how something is stored: half of a `code`, or
-/// what `build_functions` makes (see packing.h). The last kind is no root of a module.
+/// A term, a form of one, one output of a model or light, or what the compiler makes: how something
+/// is stored, which is half of a `code` or from `build_functions` (see packing.h), and a model
+/// under a light (see shade.h). The last two kinds are no roots of a module.
 struct Function {
     enum class Kind : std::uint8_t {
         term,
         form,
         output,
-        storage
+        storage,
+        shade
     };
 
     std::string name;  ///< unique in the module: `D_GGX`, `F_Schlick_spherical_gaussian`,
@@ -87,6 +95,14 @@ struct Effect {
     Span span;
 };
 
+/// A model that this module lights: it has or imports both. They may be another module's; their
+/// functions are here.
+struct Shading {
+    Model model;
+    Model light;
+    FunctionId function;  ///< `shade_callisto_point`, once there is one: see shade.h
+};
+
 struct Module {
     std::string name;
     std::string path;  ///< of the file, as the user gave it
@@ -96,10 +112,12 @@ struct Module {
     std::vector<Parameter> parameters;
     std::vector<Function> functions;  ///< callees first; imported ones included
     std::vector<Effect> effects;
-    std::vector<Model> models;         ///< this module's own
-    std::vector<Gbuffer> gbuffers;     ///< its own, and those that its packings and engines name
-    std::vector<Packing> packings;     ///< its own
-    std::vector<Engine> engines;       ///< its own
+    std::vector<Model> models;      ///< this module's own
+    std::vector<Model> lights;      ///< this module's own
+    std::vector<Shading> shadings;  ///< every model that it has or imports under every such light
+    std::vector<Gbuffer> gbuffers;  ///< its own, and those that its packings and engines name
+    std::vector<Packing> packings;  ///< its own
+    std::vector<Engine> engines;    ///< its own
     std::vector<std::string> remarks;  ///< how it is compiled, for the banner of what is emitted
     bool bare_geometry = false;        ///< entry points compute fields unguarded (see Frame::bare)
 
@@ -107,9 +125,12 @@ struct Module {
     std::optional<FunctionId> find(std::string_view function_name) const;
     /// Declared here rather than imported.
     bool owns(const Function& function) const { return function.module == name; }
-    /// What callers of a library may call: the outputs of its models, or, when there is none,
-    /// its own terms and forms. Nothing else is emitted unless one of these calls it.
+    /// What callers of a library may call: the outputs of its models and lights, or, when there is
+    /// none, its own terms and forms. Nothing else is emitted unless one of these calls it.
     std::vector<FunctionId> roots() const;
+    /// The functions that shade, in order of shadings; before there are any, what they will call.
+    /// Emitted in a file of their own.
+    std::vector<FunctionId> shading_roots() const;
     /// The functions that pack and unpack (see packing.h), in order of packings. Emitted in a file
     /// of their own; like roots they keep the inputs that they were made with.
     std::vector<FunctionId> packing_roots() const;

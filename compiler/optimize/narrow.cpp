@@ -26,7 +26,7 @@ void limit_inputs(Module& module, const Limits& limits)
             parameter.range = intersection(parameter.range, found->second);
     for (Function& function : module.functions)
         for (Input& input : function.inputs) {
-            if (input.origin != Origin::parameter && input.origin != Origin::surface) continue;
+            if (input.origin == Origin::argument || input.origin == Origin::geometry) continue;
             if (const auto found = limits.find(input.name); found != limits.end())
                 input.range = intersection(input.range, found->second);
         }

@@ -1,5 +1,6 @@
 #include "optimize/optimize.h"
 
+#include "ir/shade.h"
 #include "optimize/explain.h"
 #include "optimize/stabilize.h"
 
@@ -32,7 +33,9 @@ ir::Module run(const ir::Module& module, const Notes& notes, std::vector<Applica
     // Late: what it proves is about the expressions that will be emitted.
     const ir::Module legal = checked(legalize(grouped, notes));
     // Factors of 1 in products, and guards that a sharper range makes needless.
-    return checked(simplify_again(clean, legal));
+    const ir::Module done = checked(simplify_again(clean, legal));
+    // When it is known which fields of the geometry the outputs of models ask for.
+    return with_shades(done);
 }
 
 }  // namespace

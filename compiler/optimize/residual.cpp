@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 namespace lobe::optimize {
 
@@ -28,6 +29,8 @@ Module of_model(Module module, std::string_view model)
             return other.model.name != model || other.model.module != module.name;
         });
         std::erase_if(module.engines, [&](const Engine& other) { return other.model != model; });
+        std::erase_if(module.shadings,
+                      [&](const Shading& other) { return other.model.name != model; });
     }
     for (Packing& packing : module.packings) {
         packing.channels.clear();
@@ -41,6 +44,7 @@ Module of_model(Module module, std::string_view model)
 std::vector<FunctionId> kept_roots(const Module& module)
 {
     std::vector<FunctionId> roots = module.roots();
+    std::ranges::copy(module.shading_roots(), std::back_inserter(roots));
     for (const Packing& packing : module.packings) {
         for (const ModelOutput& output : packing.model.outputs) roots.push_back(output.function);
         for (const Field& field : packing.fields)
@@ -70,6 +74,8 @@ public:
     Condition(const Module& module, const Effect& effect) : alone_(without_functions(module))
     {
         alone_.models.clear();
+        alone_.lights.clear();
+        alone_.shadings.clear();
         alone_.effects.clear();
         alone_.packings.clear();
         alone_.engines.clear();

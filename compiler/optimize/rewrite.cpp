@@ -13,30 +13,11 @@ namespace {
 /// The input that a function gains when a callee asks for this field or parameter.
 Input gained_input(const Module& module, Origin origin, std::uint32_t which)
 {
-    const auto from_field = [&](const FieldFacts& field, Quantity vector) {
-        const Quantity quantity = field.type == Type::vec3 ? vector : Quantity::number;
-        return Input{std::string{field.name},
-                     field.type,
-                     quantity,
-                     {field.low, field.high},
-                     origin,
-                     which,
-                     {}};
-    };
-    switch (origin) {
-    case Origin::geometry:
-        return from_field(facts(static_cast<GeometryField>(which)), Quantity::direction);
-    case Origin::surface:
-        return from_field(facts(static_cast<SurfaceField>(which)), Quantity::color);
-    case Origin::parameter: {
-        const Parameter& parameter = module.parameters[which];
-        return {parameter.name, parameter.type, parameter.quantity, parameter.range,
-                origin,         which,          parameter.span};
-    }
-    case Origin::argument: break;
-    }
-    assert(false && "an argument comes from the caller's operand");
-    return {};
+    assert(origin != Origin::argument && "an argument comes from the caller's operand");
+    if (origin != Origin::parameter) return field_input(origin, which);
+    const Parameter& parameter = module.parameters[which];
+    return {parameter.name, parameter.type, parameter.quantity, parameter.range,
+            origin,         which,          parameter.span};
 }
 
 /// True when a callee with these wires takes what it took when it had so many inputs.
@@ -261,6 +242,7 @@ std::vector<FunctionId> all_roots(const Module& module)
 {
     std::vector<FunctionId> roots = module.roots();
     std::ranges::copy(module.packing_roots(), std::back_inserter(roots));
+    std::ranges::copy(module.shading_roots(), std::back_inserter(roots));
     return roots;
 }
 

@@ -25,7 +25,8 @@ using Settings = std::map<std::string, std::vector<double>>;
 /// the settings decide is a constant; `truth` (truth.h) reads it.
 ir::Module specialize(const ir::Module& module, const Settings& settings);
 
-/// The module where these inputs stay in narrower ranges: parameters and surface fields, by name.
+/// The module where these inputs stay in narrower ranges: parameters, and fields of surfaces and
+/// emitters, by name.
 /// Functions that are no roots are then called with less than they were declared for; their
 /// arguments' ranges become what their callers pass. Guards that this makes needless go in
 /// `legalize`. A range is intersected with the declared one; where they do not meet, the declared

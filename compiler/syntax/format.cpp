@@ -160,7 +160,7 @@ private:
 
     void write(const ModelItem& model)
     {
-        lines_.put(fmt::format("model {}", model.name.text));
+        lines_.put(fmt::format("{} {}", model.is_light ? "light" : "model", model.name.text));
         write_signature(model.parameters, std::nullopt);
         lines_.put(" {\n");
         for (const Let& let : model.lets) write_let(let, step);

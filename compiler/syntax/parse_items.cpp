@@ -8,9 +8,9 @@ namespace {
 
 const std::vector<std::string>& item_keywords()
 {
-    static const std::vector<std::string> words{"import", "source", "tier",    "param", "term",
-                                                "effect", "model",  "gbuffer", "code",  "packing",
-                                                "engine", "form",   "module"};
+    static const std::vector<std::string> words{"import",  "source", "tier",  "param",   "term",
+                                                "effect",  "model",  "light", "gbuffer", "code",
+                                                "packing", "engine", "form",  "module"};
     return words;
 }
 
@@ -84,7 +84,7 @@ void Parser::parse_item()
             result.message = fmt::format("expected a declaration, found {}", words(current()));
             result.helps.emplace_back(
                 "declarations start with `import`, `source`, `tier`, `param`, `term`, `effect`, "
-                "`model`, `gbuffer`, `code`, `packing` or `engine`");
+                "`model`, `light`, `gbuffer`, `code`, `packing` or `engine`");
             fail(std::move(result));
         }
     } else if (keyword.empty() || !current().first_on_line) {
@@ -139,7 +139,8 @@ std::optional<Parser::ItemNode> Parser::parse_item_node(std::string_view keyword
     if (keyword == "param") return named(parse_param());
     if (keyword == "term") return named(parse_term(item));
     if (keyword == "effect") return parse_effect();
-    if (keyword == "model") return named(parse_model(item));
+    if (keyword == "model" || keyword == "light")
+        return named(parse_model(item, keyword == "light"));
     if (keyword == "gbuffer") return named(parse_gbuffer(item));
     if (keyword == "code") return named(parse_code(item));
     const auto joined = [](auto node) {
@@ -311,14 +312,17 @@ EffectItem Parser::parse_effect()
     return result;
 }
 
-/// model = "model" name parameters "{" { let } { name "=" expression } "}"
-ModelItem Parser::parse_model(Item& item)
+/// model = ( "model" | "light" ) name parameters "{" { let } { name "=" expression } "}"
+ModelItem Parser::parse_model(Item& item, bool is_light)
 {
+    const std::string_view what = is_light ? "light" : "model";
     ModelItem result;
-    result.name = expect_identifier("the name of the model");
+    result.is_light = is_light;
+    result.name = expect_identifier(fmt::format("the name of the {}", what));
     result.parameters = parse_parameters();
     const Token open = current();
-    if (!expect(TokenKind::left_brace, "`{` and the outputs of the model")) return result;
+    if (!expect(TokenKind::left_brace, fmt::format("`{{` and the outputs of the {}", what)))
+        return result;
 
     while (!at(TokenKind::right_brace) && !at(TokenKind::end) && !at_item()) {
         if (at(TokenKind::word_let)) {

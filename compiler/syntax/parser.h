@@ -88,7 +88,7 @@ private:
     TermItem parse_term(Item& item);
     Form parse_form();
     EffectItem parse_effect();
-    ModelItem parse_model(Item& item);
+    ModelItem parse_model(Item& item, bool is_light);
     GbufferItem parse_gbuffer(Item& item);
     CodeItem parse_code(Item& item);
     PackingItem parse_packing(Item& item);

@@ -140,7 +140,7 @@ struct TypeClause {
     Span span;
 };
 
-/// `name: type` of a term or model.
+/// `name: type` of a term, model or light.
 struct ParameterClause {
     Identifier name;
     TypeClause type;
@@ -199,8 +199,9 @@ struct Output {
     bool blank_before = false;
     std::vector<Comment> trailing;
 };
-/// `model name(parameters) { let …  output = … }`
+/// `model name(parameters) { let …  output = … }`, or `light …` of the same shape
 struct ModelItem {
+    bool is_light = false;
     Identifier name;
     std::vector<ParameterClause> parameters;
     std::vector<Let> lets;

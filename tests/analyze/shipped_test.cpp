@@ -41,7 +41,7 @@ std::string complaints_of(const analyze::Verification& verification, const ir::M
 
 TEST_CASE("every shipped function agrees on every target and both routes", "[shipped][device]")
 {
-    const std::string name = GENERATE("microfacet", "callisto", "ue4", "environment");
+    const std::string name = GENERATE("microfacet", "callisto", "ue4", "environment", "lights");
     CAPTURE(name);
     Sources sources;
     Diagnostics diagnostics;

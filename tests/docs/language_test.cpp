@@ -82,16 +82,18 @@ std::string complaints(const std::string& text)
 
 TEST_CASE("every example of the language reference compiles without a complaint")
 {
-    constexpr std::array<std::string_view, 6> items{"module", "tier",  "param",
-                                                    "term",   "model", "effect"};
+    constexpr std::array<std::string_view, 7> items{"module", "tier",  "param", "term",
+                                                    "model",  "light", "effect"};
     const auto found = examples("../docs/language.md", items);
-    REQUIRE(found.size() == 7);
+    REQUIRE(found.size() == 9);
     for (const std::string& example : found) {
         // A fragment stands in a module that declares what it cites and calls.
         const bool whole = example.find("module ") != std::string::npos;
         const bool model = example.starts_with("model ");
         std::string text = whole ? "" : "module fragment\n";
         if (model) text += "import callisto { c1, c2, proxima_cos, specular_cos }\n";
+        if (example.starts_with("light "))
+            text += "import lights { falloff, closest_on_sphere, SphereNormalization }\n";
         if (!whole)
             text += "source Walter07 = \"Walter et al. 2007\"\n"
                     "source Karis13 = \"Karis 2013\"\n"

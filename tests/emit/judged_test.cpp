@@ -88,7 +88,7 @@ TEST_CASE("compilers take every file of the small modules", "[emit][judged]")
 
 TEST_CASE("compilers take every file of the models that ship", "[emit][judged]")
 {
-    for (const char* name : {"microfacet", "callisto", "ue4"}) {
+    for (const char* name : {"microfacet", "callisto", "ue4", "lights"}) {
         const Shipped input = shipped(name);
         check_files(input);
         check_harnesses(input);
@@ -117,7 +117,7 @@ TEST_CASE("a module's file and its packing's stand in one shader", "[emit][judge
 TEST_CASE("no line of a generated file is wider than a page, but the BxDF's own signature",
           "[emit]")
 {
-    for (const char* name : {"microfacet", "callisto", "ue4"}) {
+    for (const char* name : {"microfacet", "callisto", "ue4", "lights"}) {
         const Shipped input = shipped(name);
         for (const emit::Target& target : emit::targets())
             for (const emit::Artifact& artifact : emit::emit(input.module, input.sources, target)) {

@@ -417,6 +417,7 @@ private:
         case 4: return add(EffectItem{text(), {}, expression()});
         default: {
             ModelItem model;
+            model.is_light = chance(2);
             model.name = name();
             model.parameters = parameters();
             model.lets = lets();

@@ -185,6 +185,7 @@ private:
             return std::nullopt;
         const std::string_view of = input.origin == ir::Origin::geometry  ? "g."
                                     : input.origin == ir::Origin::surface ? "s."
+                                    : input.origin == ir::Origin::emitter ? "e."
                                                                           : "";
         return Text{fmt::format("{}{}", of, input.name)};
     }
@@ -196,6 +197,7 @@ private:
         std::vector<std::string> operands;
         bool geometry = false;
         bool surface = false;
+        bool emitter = false;
         for (std::size_t i = 0; i < callee.inputs.size(); ++i) {
             switch (callee.inputs[i].origin) {
             case ir::Origin::argument: operands.push_back(at(graph_.operands(id)[i]).text); break;
@@ -204,6 +206,9 @@ private:
                 break;
             case ir::Origin::surface:
                 if (!std::exchange(surface, true)) operands.emplace_back("s");
+                break;
+            case ir::Origin::emitter:
+                if (!std::exchange(emitter, true)) operands.emplace_back("e");
                 break;
             case ir::Origin::parameter: break;
             }

@@ -247,6 +247,7 @@ RadianceBox box_of(const ir::Module& module, const ir::Packing& packing,
             set_parameter(coordinate, module, packing, input, scalar.component);
             break;
         case Origin::surface: set_range(coordinate, surface_range(packing, input)); break;
+        case Origin::emitter:
         case Origin::argument: set_range(coordinate, input.range); break;
         }
         if (scalar.name == "roughness") box.roughness = index;

@@ -18,6 +18,8 @@ Conditions::Conditions(const ir::Module& module)
         condition.alone = ir::without_functions(module);
         condition.alone.effects.clear();
         condition.alone.models.clear();
+        condition.alone.lights.clear();
+        condition.alone.shadings.clear();
         condition.alone.packings.clear();
         condition.alone.engines.clear();
         ir::Function function = optimize::inline_calls(module, effect.off_when);

@@ -24,6 +24,8 @@ ir::Module reduced(const ir::Module& module, const std::vector<ir::FunctionId>& 
     ir::Module out = ir::without_functions(module);
     out.effects.clear();
     out.models.clear();
+    out.lights.clear();
+    out.shadings.clear();
     out.packings.clear();
     out.engines.clear();
     std::vector<bool> wanted(module.functions.size());
