@@ -50,6 +50,9 @@ int main(int argc, char** argv)
     add_pack(app, terminal, status);
     add_pareto(app, terminal, status);
     add_patch(app, terminal, status);
+    add_scene(app, terminal, status);
+    add_specialize(app, terminal, status);
+    add_ladder(app, terminal, status);
     add_stability(app, terminal, status);
     add_verify(app, terminal, status);
     add_explain(app, terminal, status);

@@ -131,24 +131,16 @@ private:
                 if (facts_.materials[m].calls[i]) effect.materials.push_back(m);
             effect.is_on = !effect.materials.empty();
             effect.why = "no material calls for it";
-            if (effect.is_on) explain(effect, i, facts_.materials[effect.materials.front()]);
+            effect.parameters = conditions_.parameters_of(i);
+            if (effect.is_on) {
+                const MaterialFacts& first = facts_.materials[effect.materials.front()];
+                effect.why = why_on(first, effect);
+                for (const std::string& name : effect.parameters)
+                    if (effect.called_by.empty() && first.inputs.contains(name))
+                        effect.called_by = first.inputs.at(name).called_by;
+            }
             facts_.effects.push_back(std::move(effect));
         }
-    }
-
-    /// The values of a material that keep an effect's condition from holding.
-    void explain(EffectFact& effect, std::size_t index, const MaterialFacts& material) const
-    {
-        effect.why.clear();
-        for (const std::string& name : conditions_.parameters_of(index)) {
-            const auto found = material.inputs.find(name);
-            if (found == material.inputs.end()) continue;
-            effect.why +=
-                fmt::format("{}{} {}{}", effect.why.empty() ? "" : ", ", name,
-                            found->second.is_constant() ? "= " : "", in_words(found->second));
-            if (effect.called_by.empty()) effect.called_by = found->second.called_by;
-        }
-        if (effect.why.empty()) effect.why = "on at the defaults";
     }
 
     void tell_scene(const std::vector<std::size_t>& shown)
@@ -184,6 +176,18 @@ private:
 bool is_zero_or_one(double value) { return value == 0 || value == 1; }
 
 }  // namespace
+
+std::string why_on(const MaterialFacts& material, const EffectFact& effect)
+{
+    std::string why;
+    for (const std::string& name : effect.parameters) {
+        const auto found = material.inputs.find(name);
+        if (found == material.inputs.end()) continue;
+        why += fmt::format("{}{} {}{}", why.empty() ? "" : ", ", name,
+                           found->second.is_constant() ? "= " : "", in_words(found->second));
+    }
+    return why.empty() ? "on at the defaults" : why;
+}
 
 const InputFact& SceneFacts::input(const MaterialFacts& of, const std::string& name) const
 {

@@ -40,9 +40,10 @@ struct MaterialFacts {
 struct EffectFact {
     std::string name;
     bool is_on = false;
-    std::string why;                     ///< `retroreflection = 4` or `no material calls for it`
-    scene::Pointer called_by;            ///< of the first material that does
-    std::vector<std::size_t> materials;  ///< that call for it, indices into SceneFacts::materials
+    std::string why;                      ///< `retroreflection = 4` or `no material calls for it`
+    scene::Pointer called_by;             ///< of the first material that does
+    std::vector<std::size_t> materials;   ///< that call for it, indices into SceneFacts::materials
+    std::vector<std::string> parameters;  ///< that its condition is about
 };
 
 struct LightCount {
@@ -84,6 +85,9 @@ struct SceneFacts {
     optimize::Called called(const std::vector<std::size_t>& of = {},
                             SurfaceUse surface = SurfaceUse::shared) const;
 };
+
+/// The values of a material that call for an effect: `retroreflection = 4`.
+std::string why_on(const MaterialFacts& material, const EffectFact& effect);
 
 struct FoundFacts {
     std::optional<SceneFacts> facts;  ///< none where a complaint is an error
