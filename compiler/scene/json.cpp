@@ -63,16 +63,18 @@ public:
         return false;
     }
 
+    /// `position` counts from 1; at the end it is one past the text.
     bool parse_error(std::size_t position, const std::string&,
                      const json::exception& error) override
     {
         constexpr int number_overflow = 406;
         if (error.id == number_overflow)
             complaints_.error(here(), "this number is not finite in 64 bits",
-                              place_in(text_, position));
+                              place_in(text_, position - 1));
         else
-            complaints_.error(here(), fmt::format("this is no JSON at {}: {}",
-                                                  place_in(text_, position), reason(error.what())));
+            complaints_.error(here(),
+                              fmt::format("this is no JSON at {}: {}",
+                                          place_in(text_, position - 1), reason(error.what())));
         return false;
     }
 
@@ -81,6 +83,7 @@ private:
     bool put(Value&& value)
     {
         next() = std::forward<Value>(value);
+        key_.clear();
         return true;
     }
 
@@ -110,8 +113,8 @@ private:
     bool close()
     {
         open_.pop_back();
-        key_ = std::move(keys_.back());
         keys_.pop_back();
+        key_.clear();
         return true;
     }
 

@@ -26,7 +26,8 @@ const std::string folder = "data/scenes/";
 
 }  // namespace
 
-scene::ReadScene read(std::string_view bytes, const Files& files, const scene::ReadOptions& options)
+scene::ReadScene read_bytes(std::string_view bytes, const Files& files,
+                            const scene::ReadOptions& options)
 {
     const scene::Fetch fetch = [&](const std::string& path) {
         const auto found = files.find(path);
@@ -38,7 +39,7 @@ scene::ReadScene read(std::string_view bytes, const Files& files, const scene::R
 
 scene::ReadScene read(const json& document, const Files& files, const scene::ReadOptions& options)
 {
-    return read(std::string_view{document.dump()}, files, options);
+    return read_bytes(document.dump(), files, options);
 }
 
 scene::Scene read_clean(const json& document, const Files& files, const scene::ReadOptions& options)

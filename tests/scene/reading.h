@@ -15,8 +15,8 @@ namespace lobe::tests {
 using Files = std::map<std::string, std::string>;
 
 /// What reading these bytes gives.
-scene::ReadScene read(std::string_view bytes, const Files& files = {},
-                      const scene::ReadOptions& options = {});
+scene::ReadScene read_bytes(std::string_view bytes, const Files& files = {},
+                            const scene::ReadOptions& options = {});
 scene::ReadScene read(const nlohmann::json& document, const Files& files = {},
                       const scene::ReadOptions& options = {});
 /// The scene; a complaint fails the test.
