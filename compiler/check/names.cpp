@@ -139,8 +139,9 @@ private:
                                                                     ? "it only imports it, here"
                                                                     : "this is an output"});
             diagnostic.notes.push_back(
-                found->second.imported ? "names are imported from the module that declares them"
-                                       : "an output comes along with what it is of: import that");
+                found->second.imported
+                    ? "names are imported from the module that declares them"
+                    : "an output comes along with its model or light: import that");
         }
         diagnostics_.report(std::move(diagnostic));
     }

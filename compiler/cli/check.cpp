@@ -30,7 +30,8 @@ void add_check(CLI::App& app, const Terminal& terminal, int& status)
         print(chosen, program.diagnostics, program.sources);
         if (program.status == success && !chosen.quiet && chosen.format == "text") {
             std::size_t terms = 0;
-            for (const ir::Module& module : program.modules) terms += module.roots().size();
+            for (const ir::Module& module : program.modules)
+                terms += module.roots().size() + module.shadings.size();
             fmt::print("{} {}, {} exported functions: no errors\n", program.modules.size(),
                        program.modules.size() == 1 ? "module" : "modules", terms);
         }

@@ -6,6 +6,7 @@
 #include "cli/outputs.h"
 #include "cli/program.h"
 #include "cli/settings.h"
+#include "ir/shade.h"
 #include "optimize/spelling.h"
 #include "report/cost.h"
 
@@ -130,7 +131,8 @@ struct Cost {
         return terms.empty() || std::ranges::count(terms, name) > 0;
     }
 
-    /// Terms and their forms, then models; what a packing stores only where it is named.
+    /// Terms and their forms, then models, lights and what shades; what a packing stores only where
+    /// it is named.
     Plan make_plan(const std::vector<ir::Module>& modules) const
     {
         Plan plan;
@@ -158,11 +160,16 @@ struct Cost {
                 if (wants(function.name) && (is_term || !terms.empty()))
                     add(function.name, false, {function.name});
             }
-            for (const ir::Model& model : module.models) {
-                std::vector<std::string> functions;
-                for (const ir::ModelOutput& output : model.outputs)
-                    functions.push_back(module[output.function].name);
-                if (wants(model.name)) add(model.name, true, functions);
+            for (const auto* list : {&module.models, &module.lights})
+                for (const ir::Model& model : *list) {
+                    std::vector<std::string> functions;
+                    for (const ir::ModelOutput& output : model.outputs)
+                        functions.push_back(module[output.function].name);
+                    if (wants(model.name)) add(model.name, true, functions);
+                }
+            for (const ir::Shading& shading : module.shadings) {
+                const std::string name = ir::shade_name(shading.model, shading.light);
+                if (wants(name)) add(name, false, {name});
             }
         }
         return plan;
@@ -191,7 +198,10 @@ struct Cost {
             for (const ir::Module& module : modules) {
                 for (const ir::FunctionId id : analyze::checked_functions(module))
                     names.push_back(module[id].name);
-                for (const ir::Model& model : module.models) names.push_back(model.name);
+                for (const auto* list : {&module.models, &module.lights})
+                    for (const ir::Model& model : *list) names.push_back(model.name);
+                for (const ir::Shading& shading : module.shadings)
+                    names.push_back(ir::shade_name(shading.model, shading.light));
             }
             const auto near = nearest(term, names);
             return fmt::format("no term or model `{}`{}", term,

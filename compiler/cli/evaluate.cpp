@@ -79,6 +79,7 @@ struct Evaluate {
         std::vector<std::string> names;
         for (const ir::FunctionId id : module.roots()) names.push_back(module[id].name);
         for (const ir::FunctionId id : module.packing_roots()) names.push_back(module[id].name);
+        for (const ir::FunctionId id : module.shading_roots()) names.push_back(module[id].name);
         const auto near = nearest(term, names);
         std::string list;
         for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;

@@ -48,7 +48,9 @@ std::string told(const ir::Module& checked, const Sources& sources)
     for (const optimize::Note& note : notes) by_function[note.function.index].push_back(&note);
 
     std::string text = fmt::format("{}\n", checked.path);
-    for (const ir::FunctionId id : emitted.reachable(emitted.roots())) {
+    std::vector<ir::FunctionId> roots = emitted.roots();
+    std::ranges::copy(emitted.shading_roots(), std::back_inserter(roots));
+    for (const ir::FunctionId id : emitted.reachable(roots)) {
         auto found = by_function.find(id.index);
         if (found == by_function.end()) continue;
         const auto key = [](const optimize::Note* note) {

@@ -1,6 +1,7 @@
 // The other spellings than the one that a build emits; see spelling.h.
 #include "optimize/spelling.h"
 
+#include "ir/shade.h"
 #include "optimize/bare.h"
 #include "optimize/optimize.h"
 #include "optimize/stabilize.h"
@@ -37,17 +38,17 @@ Module spell(const Module& checked, Spelling spelling)
     if (spelling == Spelling::stable) return optimize(checked);
     const Module simple = simplify(checked);
     switch (spelling) {
-    case Spelling::naive: return bare(simple);
+    case Spelling::naive: return with_shades(bare(simple));
     case Spelling::factored: {
         std::vector<Application> log;
         const Module tidy = simplify_again(simple, cancel(simple));
         const Module clean = simplify_again(tidy, stabilize(tidy, log, Inputs::given));
-        return simplify_again(clean, legalize(regroup(clean)));
+        return with_shades(simplify_again(clean, legalize(regroup(clean))));
     }
     case Spelling::as_written:
     case Spelling::stable: break;
     }
-    return simplify_again(simple, legalize(simple));
+    return with_shades(simplify_again(simple, legalize(simple)));
 }
 
 }  // namespace lobe::optimize

@@ -241,7 +241,8 @@ TEST_CASE("a light without an extent is the one with less of it", "[lights]")
     same("tube_specular_direction", "point_direction");
     same("capsule_specular_direction", "sphere_specular_direction");
     same("capsule_specular_gain", "sphere_specular_gain");
-    for (const double gain : at(module, "tube_specular_gain", places)[0]) CHECK(gain == 1);
+    const auto gains = at(module, "tube_specular_gain", places);
+    for (const double gain : gains[0]) CHECK(gain == 1);
 }
 
 TEST_CASE("lights in float have values where their formulas have none", "[lights][hard]")
