@@ -22,14 +22,14 @@ Material material(const std::string& text)
     json document = empty_document();
     document["images"] = {{{"uri", "one.png"}}};
     document["textures"] = {{{"source", 0}}};
-    document["materials"] = {json::parse(text)};
+    document["materials"] = json::array({json::parse(text)});
     return read_clean(document, {{"one.png", slurp("plates_color.png")}}).materials.at(0);
 }
 
 Light light(const std::string& text)
 {
     json document = empty_document();
-    document["extensions"]["KHR_lights_punctual"]["lights"] = {json::parse(text)};
+    document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({json::parse(text)});
     document["nodes"] = json::parse(R"([{"extensions": {"KHR_lights_punctual": {"light": 0}},
                                          "translation": [1, 2, 3]}])");
     document["scenes"] = json::parse(R"([{"nodes": [0]}])");
