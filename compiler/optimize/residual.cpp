@@ -1,6 +1,7 @@
 #include "optimize/residual.h"
 
 #include "ir/insert.h"
+#include "optimize/binary.h"
 #include "optimize/inline.h"
 #include "optimize/optimize.h"
 #include "optimize/rewrite.h"
@@ -232,7 +233,8 @@ Residual residual(const Module& module, const Called& called, std::string_view m
     current = specialize(current, effects.settings());
     const std::vector<bool> left_now = read_parameters(current);
     keep_parameters(current, left_now);
-    current = specialize(narrow(current, limits_of(current, called)), {});
+    current = choose_ends(narrow(current, limits_of(current, called)), called.binary);
+    current = specialize(current, {});
 
     std::vector<Effect> on;
     for (std::size_t i = 0; i < current.effects.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "optimize/specialize.h"
 
+#include "optimize/decimal.h"
 #include "optimize/inline.h"
 #include "optimize/optimize.h"
 #include "optimize/rewrite.h"
@@ -136,9 +137,13 @@ Module push_constants(const Module& module)
 Module specialize(const Module& module, const Settings& settings)
 {
     // A constant goes one call deeper per step, and steps past the deepest change nothing.
-    Module current = simplify(fix_inputs(module, settings));
+    const auto folded = [](const Module& with_constants) {
+        return simplify(fold_decimals(with_constants));
+    };
+    Module current = settings.empty() ? simplify(module) : folded(fix_inputs(module, settings));
     for (std::size_t depth = 0; depth < module.functions.size(); ++depth) {
-        Module next = simplify(push_constants(current));
+        const Module pushed = push_constants(current);
+        Module next = settings.empty() ? simplify(pushed) : folded(pushed);
         if (same_graphs(current, next)) return next;
         current = std::move(next);
     }

@@ -18,8 +18,9 @@ using Settings = std::map<std::string, std::vector<double>>;
 /// argument vanishes, elsewhere the call is inlined. Comes before `optimize`.
 ///
 /// A value stands for the shortest decimal that reads back as it: 0.1 is one tenth, as it would
-/// be had the author written it. Names that are no inputs, and values of another size than the
-/// input's, are ignored by the module: the caller checks them.
+/// be had the author written it, and what is made of such values is folded as on paper (decimal.h):
+/// where 5 (1 - 0.9) is an exponent, it is one half. Names that are no inputs, and values of
+/// another size than the input's, are ignored by the module: the caller checks them.
 ///
 /// `Module::parameters` and `Module::effects` stay as they are. The condition of an effect that
 /// the settings decide is a constant; `truth` (truth.h) reads it.

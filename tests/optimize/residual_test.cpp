@@ -172,3 +172,103 @@ TEST_CASE("surface fields may be constants")
     for (const Input& input : specular.inputs) CHECK(input.origin == Origin::geometry);
     CHECK_FALSE(optimize::illegal(optimize::optimize(left.module)));
 }
+
+TEST_CASE("exponents are what they are on paper")
+{
+    // 5 r(0.7) = 3, which no arithmetic of doubles makes of 0.7; 5 r(0.95) is one half.
+    Called called = only(callisto(), {{"retroreflection", {1, 8}}}, {"Retroreflection"});
+    called.constants["retroreflection_falloff"] = {0.7};
+    called.constants["retroreflection_tangent_falloff"] = {0.95};
+    const Module emitted = optimize::optimize(residual(callisto(), called, "callisto").module);
+    CHECK_FALSE(optimize::illegal(emitted));
+    CHECK(count(emitted, Op::power) == 0);
+    CHECK(count(emitted, Op::guarded_power) == 0);
+    CHECK(count(emitted, Op::exp2) == 0);
+}
+
+TEST_CASE("an effect whose condition holds on paper is off")
+{
+    // 0.1 * 10 == 1, although no double is 0.1.
+    Called called = only(callisto(), {}, {"Retroreflection"});
+    called.constants["retroreflection"] = {10};
+    called.constants["retroreflection_tint"] = {0.1, 0.1, 0.1};
+    const Residual left = residual(callisto(), called, "callisto");
+    CHECK(left.off.size() == callisto().effects.size());
+    CHECK_FALSE(has(functions_of(left.module), "alpha_r"));
+}
+
+TEST_CASE("an effect that shares a parameter with one that is on stays")
+{
+    const Module module = read_text(R"(
+module test
+param gain : float in [0, 4] = 0
+param first : unit = 0
+param second : unit = 0
+effect "First" off when gain * first == 0
+effect "Second" off when gain * second == 0
+model test(g: geometry) {
+  diffuse = (1 + gain * first * g.cos_o + gain * second * g.cos_i) * g.cos_i
+}
+)");
+    Called called;
+    called.ranges = {{"gain", {1, 4}}, {"second", {0.5, 1}}};
+    called.off = {"First"};
+    const Residual left = residual(module, called, "test");
+    REQUIRE(verify(left.module).value_or("") == "");
+    CHECK(left.off == Names{"First"});
+    CHECK(left.left == Names{"gain", "second"});
+    CHECK(left.absent == Names{"first"});
+    CHECK(left.settings == optimize::Settings{{"first", {0}}});
+
+    // Had both a default that is on, nothing could be said.
+    Module other = module;
+    other.parameters[1].default_value = {1};
+    const Residual stays = residual(other, called, "test");
+    CHECK(stays.off.empty());
+    CHECK(stays.left == Names{"gain", "first", "second"});
+}
+
+TEST_CASE("what is 0 or 1 chooses between colors")
+{
+    const Module module = read_text(R"(
+module test
+param rim : unit = 0
+term blended(from: color, to: color, weight: unit) -> color = lerp(from, to, weight^2)
+model test(g: geometry, s: surface) {
+  diffuse = blended(s.diffuse_color, s.f0, s.metallic) * g.cos_i
+  specular = lerp(s.f0, s.diffuse_color, rim) * g.cos_i
+}
+)");
+    Called called;
+    called.binary = {"metallic"};
+    const Residual left = residual(module, called, "test");
+    REQUIRE(verify(left.module).value_or("") == "");
+    CHECK(count(left.module, Op::lerp) == 1);  // of the rim, which is anything
+    CHECK(count(left.module, Op::select) == 1);
+    CHECK(count(left.module, Op::power) + count(left.module, Op::guarded_power) == 0);
+    const FunctionId before = module.find("test_diffuse").value();
+    const FunctionId after = left.module.find("test_diffuse").value();
+    for (const double metallic : {0.0, 1.0}) {
+        const Points<double> points{{"metallic", {metallic}},
+                                    {"diffuse_color.r", {0.25}},
+                                    {"diffuse_color.g", {0.5}},
+                                    {"diffuse_color.b", {0.75}},
+                                    {"f0.r", {0.125}},
+                                    {"f0.g", {0.0625}},
+                                    {"f0.b", {1}},
+                                    {"cos_i", {0.5}}};
+        CHECK(values(module, before, points) == values(left.module, after, points));
+    }
+}
+
+TEST_CASE("an effect that is left out on purpose has its defaults, whatever the constants say")
+{
+    Called called =
+        only(callisto(), {{"smooth_terminator", {0, 0.5}}, {"smooth_terminator_length", {0.5, 1}}},
+             {"Smooth Terminator"});
+    called.constants["specular_fresnel_falloff"] = {0.25};
+    const Residual left = residual(callisto(), called, "callisto");
+    REQUIRE(verify(left.module).value_or("") == "");
+    CHECK(has(left.off, "Specular Fresnel"));
+    CHECK(left.settings.at("specular_fresnel_falloff") == std::vector<double>{0.5});
+}
