@@ -17,18 +17,12 @@ namespace lobe::scene {
 namespace {
 
 struct Shape {
-    std::string_view name;
     std::size_t rows;
     std::size_t columns;
 };
 
-constexpr std::array<Shape, 7> shapes{{{"SCALAR", 1, 1},
-                                       {"VEC2", 2, 1},
-                                       {"VEC3", 3, 1},
-                                       {"VEC4", 4, 1},
-                                       {"MAT2", 2, 2},
-                                       {"MAT3", 3, 3},
-                                       {"MAT4", 4, 4}}};
+/// SCALAR, VEC2 to VEC4, MAT2 to MAT4.
+constexpr std::array<Shape, 7> shapes{{{1, 1}, {2, 1}, {3, 1}, {4, 1}, {2, 2}, {3, 3}, {4, 4}}};
 
 std::size_t size_of(ComponentType type)
 {
@@ -106,9 +100,8 @@ public:
         const auto type = component_type(view_);
         accessor.is_normalized = view_.flag("normalized", false);
         accessor.count = view_.whole("count", 0, 1, most_elements);
-        std::vector<std::string> names;
-        for (const Shape& shape : shapes) names.emplace_back(shape.name);
-        const auto choice = view_.choice("type", names);
+        const auto choice =
+            view_.choice("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
         if (!type || !choice || accessor.count == 0) return std::nullopt;
         const Shape& shape = shapes[*choice];
         accessor.type = *type;

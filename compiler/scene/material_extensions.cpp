@@ -91,16 +91,21 @@ void read_extensions(const View& view, Textures& textures, Material& material)
 {
     const auto extensions = view.object("extensions");
     if (!extensions) return;
-    material.is_unlit = extensions->object("KHR_materials_unlit").has_value();
+    for (const std::string& name : extensions->names()) extensions->object(name);
+    const auto find = [&](std::string_view name) {  // what is no object was complained of
+        auto found = extensions->member(name);
+        return found && found->is_object() ? found : std::nullopt;
+    };
+    material.is_unlit = find("KHR_materials_unlit").has_value();
     for (const Row& row : rows()) {
-        const auto extension = extensions->object(row.extension);
+        const auto extension = find(row.extension);
         if (!extension) continue;
         Value value = read_factor(*extension, row.factor, textures);
         if (value.is_given || value.high[0] < infinity)
             material.extensions.emplace(row.key, std::move(value));
     }
     for (const auto& [name, member] : further_textures)
-        if (const auto extension = extensions->object(name))
+        if (const auto extension = find(name))
             if (const auto reference = extension->object(member)) textures.read(*reference);
 
     if (const auto ior = material.extensions.find("ior"); ior != material.extensions.end()) {
@@ -117,7 +122,7 @@ void read_extensions(const View& view, Textures& textures, Material& material)
         rotation.high[0] += std::numbers::pi;
         rotation.is_given = true;
     }
-    if (const auto emissive = extensions->object("KHR_materials_emissive_strength")) {
+    if (const auto emissive = find("KHR_materials_emissive_strength")) {
         const double strength = emissive->number("emissiveStrength", 1, not_negative);
         for (double& component : material.emissive.low) component *= strength;
         material.emissive.high = material.emissive.low;

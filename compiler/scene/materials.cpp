@@ -9,54 +9,53 @@
 namespace lobe::scene {
 namespace {
 
-std::optional<Texture> read_texture(const View& holder, std::string_view name, Textures& textures)
-{
-    const auto reference = holder.object(name);
-    return reference ? textures.read(*reference) : std::nullopt;
-}
+using json = nlohmann::json;
 
 Material read_material(const View& view, Textures& textures, std::size_t material_count)
 {
-    Material material = default_material();
+    static const Factor base_color{.name = "baseColorFactor",
+                                   .otherwise = {1, 1, 1, 1},
+                                   .texture = "baseColorTexture",
+                                   .channels = {0, 1, 2, 3},
+                                   .is_srgb = true};
+    static const Factor metallic{.name = "metallicFactor",
+                                 .otherwise = {1},
+                                 .texture = "metallicRoughnessTexture",
+                                 .channels = {2}};
+    static const Factor roughness{.name = "roughnessFactor", .otherwise = {1}};
+    static const Factor emissive{.name = "emissiveFactor",
+                                 .otherwise = {0, 0, 0},
+                                 .texture = "emissiveTexture",
+                                 .channels = {0, 1, 2},
+                                 .is_srgb = true};
+    static const json nothing = json::object();
+
+    if (!view.expect_object()) return default_material();
+    Material material;
     material.pointer = view.pointer();
-    if (!view.expect_object()) return material;
     material.name = view.text("name");
-    if (const auto base = view.object("pbrMetallicRoughness")) {
-        material.base_color = read_factor(*base,
-                                          {.name = "baseColorFactor",
-                                           .otherwise = {1, 1, 1, 1},
-                                           .texture = "baseColorTexture",
-                                           .channels = {0, 1, 2, 3},
-                                           .is_srgb = true},
-                                          textures);
-        const std::string_view both = "metallicRoughnessTexture";
-        material.metallic = read_factor(
-            *base, {.name = "metallicFactor", .otherwise = {1}, .texture = both, .channels = {2}},
-            textures);
-        // Both values are of one texture: what is wrong with it is said once.
-        material.roughness =
-            read_factor(*base, {.name = "roughnessFactor", .otherwise = {1}}, textures);
-        if (material.metallic.texture) {
-            material.roughness.texture = material.metallic.texture;
-            material.roughness.channels = {1};
-            material.roughness.is_given = true;
-            if (!base->member("roughnessFactor"))
-                material.roughness.pointer = material.metallic.texture->pointer;
-        }
+    const View base = view.object("pbrMetallicRoughness")
+                          .value_or(View{nothing, view.pointer(), view.complaints()});
+    material.base_color = read_factor(base, base_color, textures);
+    material.metallic = read_factor(base, metallic, textures);
+    material.roughness = read_factor(base, roughness, textures);
+    // Both values are of one texture: what is wrong with it is said once.
+    if (material.metallic.texture) {
+        material.roughness.texture = material.metallic.texture;
+        material.roughness.channels = {1};
+        if (!material.roughness.is_given)
+            material.roughness.pointer = material.metallic.texture->pointer;
+        material.roughness.is_given = true;
     }
-    material.emissive = read_factor(view,
-                                    {.name = "emissiveFactor",
-                                     .otherwise = {0, 0, 0},
-                                     .texture = "emissiveTexture",
-                                     .channels = {0, 1, 2},
-                                     .is_srgb = true},
-                                    textures);
-    material.normal_map = read_texture(view, "normalTexture", textures);
-    if (const auto normal = view.object("normalTexture"))
+    material.emissive = read_factor(view, emissive, textures);
+    if (const auto normal = view.object("normalTexture")) {
+        material.normal_map = textures.read(*normal);
         material.normal_scale = normal->number("scale", 1);
-    material.occlusion_map = read_texture(view, "occlusionTexture", textures);
-    if (const auto occlusion = view.object("occlusionTexture"))
+    }
+    if (const auto occlusion = view.object("occlusionTexture")) {
+        material.occlusion_map = textures.read(*occlusion);
         occlusion->number("strength", 1, unit_bounds);
+    }
     material.double_sided = view.flag("doubleSided", false);
     material.alpha = static_cast<Material::Alpha>(
         view.choice("alphaMode", {"OPAQUE", "MASK", "BLEND"}).value_or(0));

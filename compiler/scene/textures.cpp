@@ -24,6 +24,16 @@ bool repeats(const View& sampler, std::string_view name)
     return code != clamp_to_edge;
 }
 
+/// OpenGL's number for taking the texel that is nearest, of the picture itself: levels of detail
+/// have averages of it.
+constexpr std::size_t nearest_texel = 9728;
+
+bool filters(const View& sampler)
+{
+    return sampler.whole("magFilter", 0, 0, 65535) != nearest_texel ||
+           sampler.whole("minFilter", 0, 0, 65535) != nearest_texel;
+}
+
 /// Pictures of kinds that are known but not decoded come by extensions.
 constexpr std::array<std::string_view, 3> picture_extensions{
     "KHR_texture_basisu", "EXT_texture_webp", "MSFT_texture_dds"};
@@ -42,6 +52,7 @@ Textures::Textures(const View& root, std::size_t image_count)
             if (!sampler.expect_object()) continue;
             entry.repeats_u = repeats(sampler, "wrapS");
             entry.repeats_v = repeats(sampler, "wrapT");
+            entry.is_filtered = filters(sampler);
         }
     if (const auto listed = root.array("textures"))
         for (std::size_t index = 0; index < listed->size(); ++index)
@@ -91,6 +102,7 @@ std::optional<Texture> Textures::read(const View& reference)
     texture.image = *entry.image;
     texture.repeats_u = entry.repeats_u;
     texture.repeats_v = entry.repeats_v;
+    texture.is_filtered = entry.is_filtered;
     use(texture.image);
     return texture;
 }

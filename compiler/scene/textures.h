@@ -27,6 +27,7 @@ private:
         std::optional<std::size_t> image;
         bool repeats_u = true;
         bool repeats_v = true;
+        bool is_filtered = true;
     };
     Entry entry(const View& texture, std::size_t image_count, const std::vector<Entry>& samplers);
 

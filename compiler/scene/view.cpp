@@ -244,14 +244,13 @@ std::string View::text(std::string_view name, std::string otherwise) const
     return text ? std::move(*text) : otherwise;
 }
 
-std::optional<std::size_t> View::choice(std::string_view name,
-                                        const std::vector<std::string>& choices) const
+std::optional<std::size_t> View::choice(std::string_view name, Names choices) const
 {
     const auto found = member(name);
     if (!found) return 0;
     const auto text = found->text();
     if (!text) return std::nullopt;
-    const auto at = std::ranges::find(choices, *text);
+    const auto at = std::ranges::find(choices, std::string_view{*text});
     if (at != choices.end()) return static_cast<std::size_t>(at - choices.begin());
     found->error(fmt::format("{} is none of {}", quoted(*text), fmt::join(choices, ", ")));
     return std::nullopt;
@@ -283,15 +282,16 @@ std::optional<View> View::extras() const
     return extras ? extras->object("lobe") : std::nullopt;
 }
 
-void View::allow_only(const std::vector<std::string>& known) const
+void View::allow_only(Names known) const
 {
-    for (const std::string& name : names()) {
-        if (std::ranges::find(known, name) != known.end()) continue;
-        const auto near = nearest(name, known);
-        View{(*value_)[name], pointer_ / name, *complaints_}.error(
-            fmt::format("{} is not known here", quoted(name)),
-            near ? fmt::format("did you mean `{}`?", *near)
-                 : fmt::format("known are {}", fmt::join(known, ", ")));
+    const auto* members = value_->get_ptr<const json::object_t*>();
+    if (members == nullptr) return;
+    for (const auto& [name, value] : *members) {
+        if (std::ranges::find(known, std::string_view{name}) != known.end()) continue;
+        const auto near = nearest(name, {known.begin(), known.end()});
+        complaints_->error(pointer_ / name, fmt::format("{} is not known here", quoted(name)),
+                           near ? fmt::format("did you mean `{}`?", *near)
+                                : fmt::format("known are {}", fmt::join(known, ", ")));
     }
 }
 

@@ -6,6 +6,7 @@
 #include "scene/json.h"
 
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ struct Bounds {
 constexpr Bounds unit_bounds{0, 1};
 constexpr Bounds not_negative{0};
 constexpr Bounds positive{0, std::numeric_limits<double>::infinity(), true};
+
+using Names = std::initializer_list<std::string_view>;
 
 class View {
 public:
@@ -75,8 +78,7 @@ public:
     std::string text(std::string_view name, std::string otherwise = {}) const;
     /// The position of the member in `choices`: the first where it is absent, none where it is
     /// another.
-    std::optional<std::size_t> choice(std::string_view name,
-                                      const std::vector<std::string>& choices) const;
+    std::optional<std::size_t> choice(std::string_view name, Names choices) const;
     std::optional<std::size_t> index(std::string_view name, std::size_t size,
                                      std::string_view what) const;
     /// Says that a member has to be there. True if it is.
@@ -86,7 +88,7 @@ public:
     /// `extras.lobe`.
     std::optional<View> extras() const;
     /// Members other than these are errors, with the nearest of them as help.
-    void allow_only(const std::vector<std::string>& known) const;
+    void allow_only(Names known) const;
 
 private:
     const nlohmann::json* value_;

@@ -226,6 +226,14 @@ TEST_CASE("what is wrong with materials and textures is told")
     expect({"/materials/0/extensions/KHR_materials_ior/ior", "0.5",
             "error /materials/0/extensions/KHR_materials_ior/ior: an index of refraction is at "
             "least 1, or 0 for none"});
+    expect({"/materials/0/extensions/KHR_materials_ior", "1.4",
+            "error /materials/0/extensions/KHR_materials_ior: an object is expected here, this is "
+            "a number"});
+    expect({"/materials/0/extensions/KHR_materials_clearcoat", "[]",
+            "error /materials/0/extensions/KHR_materials_clearcoat: an object is expected here, "
+            "this is an array"});
+    expect({"/materials/0/normalTexture", "0",
+            "error /materials/0/normalTexture: an object is expected here, this is a number"});
     expect({"/textures/0/source", "1",
             "error /textures/0/source: 1 is past the end of `images`, which has 1"});
     expect({"/textures/0/sampler", "1",
