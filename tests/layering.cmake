@@ -20,7 +20,7 @@ set(may_analyze base ir evaluate optimize emit verify device scene)
 set(may_render base ir evaluate optimize scene analyze)
 set(may_engine base emit)
 set(may_report base ir analyze emit engine scene)
-set(may_cli base syntax ir check evaluate optimize emit verify device scene analyze render engine report compile.h lobe)
+set(may_cli base syntax ir check evaluate optimize emit verify device scene analyze render engine report compile.h lights.h lobe)
 
 # No files, clock, environment or locale: equal inputs give equal bytes.
 set(hermetic base syntax ir evaluate check optimize emit engine scene)

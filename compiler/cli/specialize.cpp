@@ -8,6 +8,7 @@
 #include "cli/scene_file.h"
 #include "cli/settings.h"
 #include "emit/listing.h"
+#include "lights.h"
 #include "lobe/lobe.h"
 #include "report/residual.h"
 
@@ -20,6 +21,9 @@
 
 namespace lobe::cli {
 namespace {
+
+/// Of --per-material. Every one is compiled to find its cost.
+constexpr std::size_t most_shaders = 1000;
 
 /// What each part of a run took.
 class Phases {
@@ -61,6 +65,7 @@ struct Specialize {
     bool per_material = false;
     bool no_certificate = false;
     bool no_execution = false;
+    bool no_lights = false;
 
     int run(const Terminal& terminal) const
     {
@@ -80,6 +85,12 @@ struct Specialize {
         auto facts = read_facts(terminal, scene, file);
         if (!facts) return broken;
         phases.done("scene");
+        if (per_material)
+            if (const std::size_t kinds = analyze::by_facts(*facts).size(); kinds > most_shaders)
+                return fail(terminal, fmt::format("--per-material would make {} shaders; it makes "
+                                                  "at most {}. `--variants` takes any number of "
+                                                  "materials",
+                                                  kinds, most_shaders));
 
         const analyze::Store store = open_cache(cache);
         report::Specialization result;
@@ -141,21 +152,22 @@ struct Specialize {
         return out;
     }
 
-    /// The files of every shader. What lights a scene has joins its modules here, between the
-    /// residual and what is emitted of it.
+    /// The files of every shader, and of what it makes of the lights that the scene has.
     std::vector<OutputFile> emitted(const ModelFile& file,
                                     const report::Specialization& result) const
     {
         std::vector<OutputFile> files;
+        Sources sources = file.program.sources;
+        const auto lights = no_lights ? std::vector<std::string>{} : result.facts.light_names;
         for (std::size_t i = 0; i < result.variants.chosen.size(); ++i) {
             const analyze::Variant& variant = result.variants.chosen[i];
             ir::Module module = analyze::renamed(variant.residual.module, variant.name);
             module.remarks = report::remarks(result, i);
-            const auto artifacts =
-                back(middle(module), file.program.sources, choose_targets(target_names));
-            for (const emit::Artifact& artifact : artifacts)
+            if (!lights.empty()) module = with_lights(module, lights, sources);
+            for (emit::Artifact& artifact :
+                 back(middle(module), sources, choose_targets(target_names)))
                 files.push_back({(std::filesystem::path{output} / artifact.path).generic_string(),
-                                 artifact.text});
+                                 std::move(artifact.text)});
         }
         return files;
     }
@@ -229,6 +241,10 @@ void add_specialize(CLI::App& app, const Terminal& terminal, int& status)
         ->add_option("--on", specialize->family,
                      "The GPU family to count cycles on (default: rdna2)")
         ->check(CLI::IsMember(family_names()))
+        ->group(which);
+    command
+        ->add_flag("--no-lights", specialize->no_lights,
+                   "Leave out the functions that shade under the kinds of light the scene has")
         ->group(which);
     const std::string what = "The certificate";
     command->add_option("--points", specialize->points, "Points per output")

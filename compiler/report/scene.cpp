@@ -236,6 +236,7 @@ ordered_json to_json(const SceneFacts& facts)
             {"effects", std::move(effects)},
             {"materials", std::move(materials)},
             {"lights", std::move(lights)},
+            {"light_functions", facts.light_names},
             {"environment", facts.has_environment},
             {"tangents", facts.has_tangents},
             {"double_sided", facts.double_sided},

@@ -13,6 +13,7 @@
 #include <charconv>
 #include <map>
 #include <mutex>
+#include <thread>
 
 namespace lobe::analyze {
 namespace {
@@ -70,6 +71,9 @@ std::optional<ChainStatistics> to_statistics(std::string_view text)
 
 // ---- the measurement
 
+/// Jobs that are worth starting another process of a driver for.
+constexpr std::size_t least_of_a_lane = 8;
+
 /// One thing to put into chains, and what the driver of each family that is asked says of it.
 struct Job {
     Chain chain;
@@ -121,12 +125,15 @@ private:
         for (Job& job : jobs_) job.statistics.resize(families);
         total_ = jobs_.size() * families;
         // The compilers work in processes of their own, the threads here only wait for them.
-        const unsigned threads =
-            options_.jobs == 0 ? static_cast<unsigned>(families) : options_.jobs;
-        std::vector<std::string> failures(families);
-        std::vector<std::string> drivers(families);
-        for_each_task(families, threads, [&](std::size_t family) {
-            failures[family] = measure_family(family, drivers[family]);
+        const std::size_t threads =
+            options_.jobs == 0 ? std::max(families, cores()) : options_.jobs;
+        const std::size_t most_lanes = threads / std::max<std::size_t>(1, families);
+        const std::size_t lanes = std::clamp<std::size_t>(jobs_.size() / least_of_a_lane, 1,
+                                                          std::max<std::size_t>(1, most_lanes));
+        std::vector<std::string> failures(families * lanes);
+        std::vector<std::string> drivers(families * lanes);
+        for_each_task(families * lanes, static_cast<unsigned>(threads), [&](std::size_t task) {
+            failures[task] = measure_family(task / lanes, task % lanes, lanes, drivers[task]);
         });
         const auto failed =
             std::ranges::find_if(failures, [](const std::string& why) { return !why.empty(); });
@@ -161,16 +168,20 @@ private:
         return static_cast<int>(chain.evaluation.results.size());
     }
 
-    /// Why it failed; empty on success.
-    std::string measure_family(std::size_t which, std::string& driver)
+    static std::size_t cores() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+    /// Of every `lanes` jobs the one at `lane`, by a compiler of their own. Why it failed; empty on
+    /// success.
+    std::string measure_family(std::size_t which, std::size_t lane, std::size_t lanes,
+                               std::string& driver)
     {
         const Family family = options_.families[which];
         std::string why;
         auto compiler = ChipCompiler::open(chips(family), why);
         if (!compiler) return why;
         driver = compiler->driver();
-        for (Job& job : jobs_) {
-            job.statistics[which] = statistics_of(job.chain, *compiler, why);
+        for (std::size_t i = lane; i < jobs_.size(); i += lanes) {
+            jobs_[i].statistics[which] = statistics_of(jobs_[i].chain, *compiler, why);
             step(title(family));
         }
         return why;

@@ -156,6 +156,9 @@ private:
                 }
             if (count.count > 0) facts_.lights.push_back(count);
         }
+        std::set<std::string> names;
+        for (const scene::Light& light : scene_.lights) names.insert(light_name(light));
+        facts_.light_names.assign(names.begin(), names.end());
         facts_.has_environment = scene_.environment.has_value();
         facts_.has_tangents = std::ranges::any_of(
             scene_.meshes, [](const scene::Mesh& mesh) { return !mesh.tangents.empty(); });
@@ -233,6 +236,19 @@ optimize::Called SceneFacts::called(const std::vector<std::size_t>& of, SurfaceU
         if (std::ranges::none_of(chosen, [&](std::size_t m) { return materials[m].calls[i]; }))
             out.off.insert(effects[i].name);
     return out;
+}
+
+std::string light_name(const scene::Light& light)
+{
+    using Kind = scene::Light::Kind;
+    switch (light.kind) {
+    case Kind::directional: return "directional";
+    case Kind::point: return "punctual";
+    case Kind::spot: return "spot";
+    case Kind::sphere: return "sphere";
+    case Kind::tube: return light.radius > 0 ? "capsule" : "tube";
+    }
+    return {};
 }
 
 FoundFacts find_facts(const scene::Scene& scene, const ir::Module& module, const std::string& model)

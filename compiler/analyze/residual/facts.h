@@ -52,6 +52,9 @@ struct LightCount {
     bool ranged = false;  ///< one of them has a range: the window is needed
 };
 
+/// What models/lights.lobe calls a light that shines as this one does.
+std::string light_name(const scene::Light& light);
+
 /// Which constants of the surface `SceneFacts::called` fixes. A parameter is fixed in both.
 enum class SurfaceUse : std::uint8_t {
     /// 0 and 1, which take code away: no metal, all metal. Other constants stay inputs, so that a
@@ -66,6 +69,7 @@ struct SceneFacts {
     std::vector<MaterialFacts> materials;  ///< shown and lit ones, in the file's order
     std::vector<EffectFact> effects;       ///< in the module's order
     std::vector<LightCount> lights;        ///< kinds that the scene has, in the enum's order
+    std::vector<std::string> light_names;  ///< that they need of models/lights.lobe, sorted
     bool has_environment = false;
     bool has_tangents = false;
     bool double_sided = false;

@@ -44,6 +44,20 @@ std::set<Effects> unions_of(const std::vector<Effects>& called)
     return unions;
 }
 
+/// Materials by a key, in the order of the first of each.
+template <class Key>
+std::vector<std::vector<std::size_t>> grouped_by(const SceneFacts& facts, const Key& key)
+{
+    std::map<decltype(key(facts.materials.front())), std::size_t> index;
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t m = 0; m < facts.materials.size(); ++m) {
+        const auto [known, is_new] = index.try_emplace(key(facts.materials[m]), groups.size());
+        if (is_new) groups.emplace_back();
+        groups[known->second].push_back(m);
+    }
+    return groups;
+}
+
 /// A part of a name: `Diffuse Fresnel` as `diffuse_fresnel`.
 std::string snake(const std::string& text)
 {
@@ -298,14 +312,23 @@ double price_of(const Cost& cost, Family family)
 
 std::vector<std::vector<std::size_t>> by_effects(const SceneFacts& facts)
 {
-    std::map<Effects, std::size_t> index;
-    std::vector<std::vector<std::size_t>> groups;
-    for (std::size_t m = 0; m < facts.materials.size(); ++m) {
-        const auto [known, is_new] = index.try_emplace(facts.materials[m].calls, groups.size());
-        if (is_new) groups.emplace_back();
-        groups[known->second].push_back(m);
-    }
-    return groups;
+    return grouped_by(facts, [](const MaterialFacts& material) { return material.calls; });
+}
+
+std::vector<std::vector<std::size_t>> by_facts(const SceneFacts& facts)
+{
+    return grouped_by(facts, [](const MaterialFacts& material) {
+        std::map<std::string, std::vector<double>> key;
+        for (const auto& [name, fact] : material.inputs) {
+            std::vector<double>& ends = key[name];
+            for (const ir::Range& range : fact.components) {
+                ends.push_back(range.low);
+                ends.push_back(range.high);
+            }
+            ends.push_back(fact.is_binary ? 1 : 0);
+        }
+        return std::pair{material.calls, std::move(key)};
+    });
 }
 
 ir::Module renamed(ir::Module module, const std::string& name)

@@ -59,6 +59,8 @@ Variants choose_variants(const ir::Module& module, const Sources& sources, const
 
 /// Materials by the set of effects that they call for, in the order of the first of each.
 std::vector<std::vector<std::size_t>> by_effects(const SceneFacts& facts);
+/// Materials that nothing tells apart, likewise.
+std::vector<std::vector<std::size_t>> by_facts(const SceneFacts& facts);
 
 /// A module that calls its only model, and the module itself, by another name.
 ir::Module renamed(ir::Module module, const std::string& name);
