@@ -20,6 +20,7 @@ void add_specialize(CLI::App& app, const Terminal& terminal, int& status);
 void add_ladder(CLI::App& app, const Terminal& terminal, int& status);
 void add_verify(CLI::App& app, const Terminal& terminal, int& status);
 void add_stability(CLI::App& app, const Terminal& terminal, int& status);
+void add_table(CLI::App& app, const Terminal& terminal, int& status);
 void add_explain(CLI::App& app, const Terminal& terminal, int& status);
 void add_devices(CLI::App& app, const Terminal& terminal, int& status);
 

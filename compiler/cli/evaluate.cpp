@@ -36,7 +36,7 @@ struct Evaluate {
 
         const ir::Module module = middle(program.modules.front());
         const auto function = analyze::find_function(module, term);
-        if (!function) return unknown_term(terminal, module);
+        if (!function) return unknown_term(terminal, input, module, term);
 
         std::ifstream file;
         if (table != "-") {
@@ -72,20 +72,6 @@ struct Evaluate {
         for (const std::string& hint : outcome.error->hints)
             fmt::print(stderr, "  = help: {}\n", hint);
         return broken;
-    }
-
-    int unknown_term(const Terminal& terminal, const ir::Module& module) const
-    {
-        std::vector<std::string> names;
-        for (const ir::FunctionId id : module.roots()) names.push_back(module[id].name);
-        for (const ir::FunctionId id : module.packing_roots()) names.push_back(module[id].name);
-        for (const ir::FunctionId id : module.shading_roots()) names.push_back(module[id].name);
-        const auto near = nearest(term, names);
-        std::string list;
-        for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-        return fail(terminal,
-                    fmt::format("{} has no term `{}`{}\n  = note: it exports {}", input, term,
-                                near ? fmt::format("; did you mean `{}`?", *near) : "", list));
     }
 };
 

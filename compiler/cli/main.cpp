@@ -54,6 +54,7 @@ int main(int argc, char** argv)
     add_specialize(app, terminal, status);
     add_ladder(app, terminal, status);
     add_stability(app, terminal, status);
+    add_table(app, terminal, status);
     add_verify(app, terminal, status);
     add_explain(app, terminal, status);
     add_devices(app, terminal, status);

@@ -96,6 +96,19 @@ Program load(const Terminal& terminal, const std::vector<std::string>& inputs)
     return program;
 }
 
+int unknown_term(const Terminal& terminal, const std::string& input, const ir::Module& module,
+                 const std::string& term)
+{
+    std::vector<std::string> names;
+    for (const ir::FunctionId id : module.roots()) names.push_back(module[id].name);
+    for (const ir::FunctionId id : module.packing_roots()) names.push_back(module[id].name);
+    for (const ir::FunctionId id : module.shading_roots()) names.push_back(module[id].name);
+    const auto near = nearest(term, names);
+    return fail(terminal, fmt::format("{} has no term `{}`{}\n  = note: it exports {}", input, term,
+                                      near ? fmt::format("; did you mean `{}`?", *near) : "",
+                                      fmt::join(names, ", ")));
+}
+
 std::vector<const emit::Target*> choose_targets(const std::vector<std::string>& names)
 {
     std::vector<const emit::Target*> chosen;

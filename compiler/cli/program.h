@@ -30,6 +30,11 @@ Program read_and_check(const Terminal& terminal, const std::vector<std::string>&
 /// not keep it is refused like any other.
 Program load(const Terminal& terminal, const std::vector<std::string>& inputs);
 
+/// Says that a module has no such term, what may have been meant and what there is. Returns what
+/// the command should exit with.
+int unknown_term(const Terminal& terminal, const std::string& input, const ir::Module& module,
+                 const std::string& term);
+
 /// Every module for every target, in this order. Each module is compiled on a thread of its own.
 std::vector<emit::Artifact> build(const Program& program,
                                   const std::vector<const emit::Target*>& targets);

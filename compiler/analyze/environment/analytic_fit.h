@@ -12,7 +12,10 @@
 
 #include "analyze/environment/split_sum.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lobe::analyze {
 
@@ -34,7 +37,8 @@ struct FitError {
     double scale = 0;
     double bias = 0;
     double reflected = 0;
-    double root_mean_square = 0;  ///< of the reflected part at f0 = 0.04
+    double root_mean_square = 0;  ///< of the bias and of scale + bias together; cos_o and roughness
+                                  ///< uniform
 };
 
 /// The integrals on a lattice that is denser where cos_o and roughness are small.
@@ -48,6 +52,7 @@ public:
     struct Sample {
         double roughness = 0;
         double cos_o = 0;
+        double weight = 0;  ///< share of the box that it stands for; all add to 1
         ScaleAndBias exact;
     };
     const std::vector<Sample>& samples() const { return samples_; }
@@ -56,12 +61,18 @@ private:
     std::vector<Sample> samples_;
 };
 
-/// The constants with the least greatest difference of scale, bias and their sum, rounded to
-/// `digits` decimals. Deterministic. The lines are found by linear programs; x0, x1 and decay,
-/// which are not linear, by Nelder and Mead's search around them. [Nelder65]
-AnalyticFit fitted(const SplitSumSurface& surface, int digits);
+/// What is least of FitError: `root_mean_square`, or the greatest of the other three.
+enum class FitGoal : std::uint8_t {
+    mean,
+    worst
+};
 
-/// As a body for a model file: `let x = …` and a float2 of scale and bias.
+/// The constants that reach a goal, rounded to four decimals. Deterministic. The lines are found by
+/// least squares or by linear programs; x0, x1 and decay, which are not linear, by Nelder and
+/// Mead's search around them. [Nelder65]
+AnalyticFit fitted(const SplitSumSurface& surface, FitGoal goal);
+
+/// As a body for a model file: lets, then a float2 of scale and bias.
 std::string body_of(const AnalyticFit& fit);
 
 }  // namespace lobe::analyze

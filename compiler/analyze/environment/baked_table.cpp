@@ -118,16 +118,16 @@ private:
 std::string misfit(const std::string& name, const TexelFormat& format,
                    const std::vector<double>& texels)
 {
-    // What rounds to an end of the range anyway is no overflow.
-    const double slack = format.kind == TexelKind::unorm8    ? 0.5 / 255
-                         : format.kind == TexelKind::unorm16 ? 0.5 / 65535
-                                                             : 0;
-    for (const double value : texels) {
+    // A little beyond is clamped, and shows as an error of storing.
+    const bool unorm = format.kind == TexelKind::unorm8 || format.kind == TexelKind::unorm16;
+    const double slack = unorm ? 0.01 : 0;
+    for (const double value : texels)
         if (!std::isfinite(value)) return fmt::format("`{}` is not finite at a texel", name);
-        if (value < least_of(format.kind) - slack || value > greatest_of(format.kind) + slack)
-            return fmt::format("`{}` reaches {:.6g}, and {} holds {} to {}", name, value,
-                               format.reads, least_of(format.kind), greatest_of(format.kind));
-    }
+    const auto [low, high] = std::ranges::minmax(texels);
+    const bool over = high > greatest_of(format.kind) + slack;
+    if (over || low < least_of(format.kind) - slack)
+        return fmt::format("`{}` reaches {:.6g}, and {} holds {} to {}", name, over ? high : low,
+                           format.reads, least_of(format.kind), greatest_of(format.kind));
     return {};
 }
 

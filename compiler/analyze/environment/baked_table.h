@@ -99,9 +99,9 @@ struct BakedTable {
     double stored(std::size_t texel, std::size_t channel) const;
 };
 
-/// Channels without a component hold 0; a fourth one, 1. Nothing, and `why` in words, where the
-/// format has too few channels or cannot hold a value. `points` is about how many places errors
-/// are measured at.
+/// Channels without a component hold 0; a fourth one, 1. A unorm clamps what is up to 0.01 beyond.
+/// Nothing, and `why` in words, where the format has too few channels or cannot hold a value.
+/// `points` is about how many places errors are measured at.
 std::optional<BakedTable> bake(const BakeSubject& subject, const TexelFormat& format,
                                std::size_t points, std::string& why);
 

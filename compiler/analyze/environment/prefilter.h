@@ -19,7 +19,7 @@ struct PrefilterOptions {
     int levels = 6;  ///< 1 at least, and no more than halvings of the size
     std::uint32_t samples = 1024;  ///< Hammersley points
     /// Each sample looks up the level of the source whose texels are as large as the solid angle
-    /// it stands for, which removes nearly all noise ([Krivanek08] eq 13); else the sharpest.
+    /// it stands for, which removes nearly all noise ([Krivanek08]); else the sharpest.
     bool blurs_samples = true;
     unsigned jobs = 0;  ///< threads; 0: all. The result does not depend on it.
 };
