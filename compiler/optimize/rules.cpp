@@ -74,7 +74,7 @@ class Matcher {
 public:
     explicit Matcher(const Subject& given)
         : subject_{given}, graph_{given.function->graph}, users_(graph_.size()),
-          matches_(graph_.size())
+          matches_(graph_.size()), awaited_(graph_.size())
     {
         for (const ExprId id : graph_.ids())
             for (const ExprId operand : graph_.operands(id)) users_[operand].push_back(id);
@@ -83,8 +83,13 @@ public:
     Matches run()
     {
         // From the result down: whether a factored square is worth it depends on where it goes.
-        for (std::size_t i = graph_.size(); i-- > 0;)
-            if (is_candidate(ExprId{i})) matches_[ExprId{i}] = best(ExprId{i});
+        for (std::size_t i = graph_.size(); i-- > 0;) {
+            const ExprId id{i};
+            // How much the x of a replacement matters shows once the replacement is there.
+            if (awaited_[i] || !is_candidate(id)) continue;
+            matches_[id] = best(id);
+            if (matches_[id]) awaited_[matches_[id]->variable.index] = true;
+        }
         return std::move(matches_);
     }
 
@@ -163,6 +168,7 @@ private:
                     negate(parts->slope)};
         const bool cancels = match.rest.size() + 2 <= parts->constant.size() + parts->slope.size();
         if (!cancels || opposite(range(match.rest), range(match.slope))) return std::nullopt;
+        if (is_absorbed(id, parts->slope, degree)) return std::nullopt;
         // Beyond 1 the factor 1 - x^d changes sign, and a rest would meet it from the other side.
         const Interval& x = subject_.ranges[variable];
         if (!match.rest.empty() && (x.high > 1 || x.low < (degree == 2 ? -1 : 0)))
@@ -178,6 +184,46 @@ private:
         if (rule == rule_table.end()) return std::nullopt;
         match.rule = &*rule;
         return match;
+    }
+
+    /// True when the cancellation of a sum is lost in every sum it enters, as that of 1 - x is in
+    /// 1 + (1 - x): a float near 1 is half a unit of 2^-24 off, which is less than two units of a
+    /// value that is no less than a quarter of what multiplies it.
+    bool is_absorbed(ExprId root, const Sum& slope, int degree) const
+    {
+        constexpr double little = 0.25;
+        const Interval range = bounds(slope, subject_.ranges);
+        std::vector<double> lost(graph_.size());  // at most so often the rounding of x
+        lost[root.index] = degree * std::max(std::fabs(range.low), std::fabs(range.high));
+        for (std::size_t i = root.index; i < graph_.size(); ++i) {
+            const ExprId id{i};
+            const Interval& value = subject_.ranges[id];
+            if (lost[i] == 0 || std::max(value.low, -value.high) >= little * lost[i]) continue;
+            if (id == subject_.function->result || users_[id].empty()) return false;
+            for (const ExprId user : users_[id]) {
+                const auto factor = carried_by(user, id);
+                if (!factor || matches_[user]) return false;
+                lost[user.index] += lost[i] * *factor;
+            }
+        }
+        return true;
+    }
+
+    /// By how much an expression multiplies what is lost of an operand, if it is a sum or product.
+    std::optional<double> carried_by(ExprId user, ExprId operand) const
+    {
+        if (graph_[user].type != Type::scalar) return std::nullopt;
+        switch (graph_[user].op) {
+        case Op::add:
+        case Op::subtract:
+        case Op::negate: return 1;
+        case Op::multiply: {
+            const auto operands = graph_.operands(user);
+            const Interval& other = subject_.ranges[operands[operands[0] == operand ? 1 : 0]];
+            return std::max(std::fabs(other.low), std::fabs(other.high));
+        }
+        default: return std::nullopt;
+        }
     }
 
     /// True when the square of x is written as (1 - x)(1 + x) already, here or in a part.
@@ -247,6 +293,7 @@ private:
     const Graph& graph_;
     Facts<Expr, std::vector<ExprId>> users_;
     Matches matches_;
+    std::vector<bool> awaited_;  ///< the variable of a match
 };
 
 }  // namespace

@@ -210,6 +210,37 @@ TEST_CASE("a sum without a cancellation stays as it was written")
     CHECK(untouched([](Site& s) { return s.t.subtract(s.one, s.t.multiply(s.a, s.cos_h)); }));
 }
 
+TEST_CASE("a cancellation that a sum absorbs stays, and one that shows does not")
+{
+    const auto asks_for_field = [](const Body& body) {
+        std::vector<optimize::Application> log;
+        const Module module = stabilize(directly(body), log);
+        const auto field = static_cast<std::uint32_t>(GeometryField::one_minus_cos_h);
+        CHECK(module.functions[0].find_input(Origin::geometry, field).has_value() == !log.empty());
+        return !log.empty();
+    };
+    const auto one_minus = [](Site& s) { return s.t.subtract(s.one, s.cos_h); };
+    CHECK(asks_for_field(one_minus));
+    // 2^-25 of a sum of at least 1 is half a unit; of 1/64 it is 32.
+    const auto plus = [&](const char* number) {
+        return [&, number](Site& s) { return s.t.add(s.t.number(number), one_minus(s)); };
+    };
+    CHECK_FALSE(asks_for_field(plus("1")));
+    CHECK(asks_for_field(plus("0.015625")));
+    // In both uses, or it shows in one.
+    CHECK_FALSE(asks_for_field([&](Site& s) {
+        const ExprId x = one_minus(s);
+        return s.t.add(s.one, s.t.multiply(x, s.t.add(s.one, x)));
+    }));
+    CHECK(asks_for_field([&](Site& s) {
+        const ExprId x = one_minus(s);
+        return s.t.multiply(x, s.t.add(s.one, x));
+    }));
+    // A product may make it large again.
+    CHECK(asks_for_field(
+        [&](Site& s) { return s.t.add(s.one, s.t.multiply(s.t.number("64"), one_minus(s))); }));
+}
+
 TEST_CASE("squares far from 1 are subtracted as they are")
 {
     Term t{"term"};
