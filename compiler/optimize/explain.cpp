@@ -26,6 +26,10 @@ constexpr std::array action_table{
            "a target's acos is off by 4096 units; see the precision table"},
     Action{"sine_of_angle", Kind::rewrite, "sin(acos(x))", "sqrt((1 - x)(1 + x))",
            "the angles of Oren and Nayar: acos near 1 knows its argument to half of its digits"},
+    // near_one.cpp
+    Action{"power_near_one", Kind::rewrite, "(1 - x)^y", "2^(y log2(1 - x)), by x below 1/16",
+           "with an exponent of 2^25 the last digit of cos_h is a factor of e; the logarithm is x "
+           "times a polynomial, right to 2^-31"},
     // regroup.cpp
     Action{"scalars_first", Kind::rewrite, "v a b", "v (a b)",
            "one operation in place of one for each component, and as many roundings fewer"},
@@ -40,6 +44,9 @@ constexpr std::array action_table{
            "a power rounds like exp2(5 log2 x), and is undefined for x < 0"},
     Action{"half_power", Kind::rewrite, "x^2.5", "x^2 sqrt(x)", "as whole_power"},
     Action{"power_of_two", Kind::rewrite, "2^x", "exp2(x)", "one function instead of two"},
+    Action{"joined_powers", Kind::rewrite, "x^a y^b", "2^(a log2 x + b log2 y)",
+           "an exponential and a product less, and their roundings; guarded like each of them: x "
+           "and y below 2^-126 count as that"},
     Action{"guarded_power", Kind::guard, "x^y", "max(x, 2^-126)^y",
            "x and y can be 0 together, and 0^0 is 1"},
     Action{"power_without_guard", Kind::needless, "x^y", "pow(x, y)",

@@ -60,6 +60,7 @@ ir::Module optimize(const ir::Module& module, std::vector<Note>& notes);
 
 /// As in optimize.h.
 ir::Module cancel(const ir::Module& module, const Notes& notes);
+ir::Module near_one(const ir::Module& module, const Notes& notes);
 ir::Module regroup(const ir::Module& module, const Notes& notes);
 ir::Module legalize(const ir::Module& module, const Notes& notes);
 

@@ -5,7 +5,8 @@
 // pow(x, 5) may round like exp2(5 log2 x), five times a logarithm's 3 ulp and more ([VulkanSpec]
 // "Precision and Operation of SPIR-V Instructions"). Then guards: those that the ranges prove
 // needless go, and where rounding alone could leave a domain that the real numbers keep, the
-// argument is held inside it.
+// argument is held inside it. A product of powers becomes one exponential: x^a y^b is
+// 2^(a log2 x + b log2 y), and x^(5a) y^(5b) is 2^(5 (a log2 x + b log2 y)).
 //
 // Over the real numbers nothing changes, except that an argument of log or inverse_square_root
 // below the smallest normal float counts as that float: there float has nothing better to say.
@@ -17,6 +18,7 @@
 #include "optimize/optimize.h"
 #include "optimize/rewrite.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lobe::optimize {
@@ -117,12 +119,50 @@ bool has_domain(Op op)
     }
 }
 
+/// True for a power that a bare `pow` computes, whatever its operands.
+bool is_safe(Op op, const Interval& base, const Interval& exponent)
+{
+    // The guard makes of 0^y the least normal float to the y: below half the least float that is
+    // nothing.
+    constexpr double vanishing = 150.0 / 126;
+    const bool was_bare = op == Op::power && is_safe_power(base, exponent);
+    return was_bare || base.low > 0 || exponent.low >= vanishing;
+}
+
+/// Products of powers, once whole and half powers are products, and what they consist of.
+struct PowerProducts {
+    PowerProducts(const Graph& graph, const Facts<Expr, int>& uses,
+                  const Facts<Expr, Interval>& ranges)
+        : is_product(graph.size()), is_part(graph.size())
+    {
+        Facts<Expr, bool> fits(graph.size());  // a power or a product of some, with one user
+        for (const ExprId id : graph.ids()) {
+            const auto operands = graph.operands(id);
+            if (is_power(graph[id].op)) {
+                // A logarithm of 0 is to be guarded, a power that is 0 there is not.
+                const Interval& base = ranges[operands[0]];
+                const bool free = base.low < smallest_normal_float &&
+                                  is_safe(graph[id].op, base, ranges[operands[1]]);
+                fits[id] = uses[id] == 1 && !free;
+            } else if (graph[id].op == Op::multiply && fits[operands[0]] && fits[operands[1]]) {
+                is_product[id] = uses[id] > 0;
+                fits[id] = uses[id] == 1;
+                for (const ExprId operand : operands) is_part[operand] = true;
+            }
+        }
+    }
+
+    Facts<Expr, bool> is_product;
+    Facts<Expr, bool> is_part;
+};
+
 /// What is known of a function before its guards are placed.
 struct Known {
     Facts<Expr, Interval> ranges;
     Facts<Expr, Interval> reals;  ///< over the real numbers
     Facts<Expr, bool> guarded_divisions;
     Facts<Expr, int> uses;
+    PowerProducts powers;
 };
 
 /// One expression and the ranges of its operands.
@@ -135,7 +175,9 @@ public:
 
     ExprId guarded()
     {
+        if (known_.powers.is_part[id_]) return copy();  // and dead: the product reads what it did
         switch (old_[id_].op) {
+        case Op::multiply: return known_.powers.is_product[id_] ? joined_powers() : copy();
         case Op::power:
         case Op::guarded_power: return power();
         case Op::smoothstep:
@@ -209,6 +251,55 @@ private:
                              old_.span(id_));
     }
 
+    struct Power {
+        ExprId id;
+        std::optional<double> scale;  ///< of an exponent `scale * rest`, or just `scale`
+        ExprId rest;
+    };
+
+    void collect_powers(ExprId id, std::vector<Power>& into) const
+    {
+        const auto operands = old_.operands(id);
+        if (old_[id].op == Op::multiply) {
+            for (const ExprId operand : operands) collect_powers(operand, into);
+            return;
+        }
+        Power power{id, std::nullopt, operands[1]};
+        if (old_[operands[1]].op == Op::multiply) {
+            const auto factors = old_.operands(operands[1]);
+            power.scale = exact_literal(old_, factors[0]);
+            if (power.scale) power.rest = factors[1];
+        }
+        into.push_back(power);
+    }
+
+    ExprId joined_powers()
+    {
+        note("joined_powers");
+        const Span span = old_.span(id_);
+        std::vector<Power> powers;
+        collect_powers(id_, powers);
+        const auto scale = powers[0].scale;
+        const bool alike = scale && std::ranges::all_of(powers, [&](const Power& power) {
+                               return power.scale == scale;
+                           });
+        std::optional<ExprId> exponent;
+        for (const Power& power : powers) {
+            const ExprId base = old_.operands(power.id)[0];
+            ExprId x = rebuild_.moved(base);
+            if (known_.ranges[base].low < smallest_normal_float)
+                x = graph().apply(Op::maximum, {x, graph().literal(smallest_normal_float)});
+            const ExprId logarithm = graph().apply(Op::log2, {x}, old_.span(power.id));
+            const ExprId times = alike ? power.rest : old_.operands(power.id)[1];
+            const ExprId term =
+                graph().apply(Op::multiply, {rebuild_.moved(times), logarithm}, span);
+            exponent = exponent ? graph().apply(Op::add, {*exponent, term}, span) : term;
+        }
+        if (alike)
+            exponent = graph().apply(Op::multiply, {graph().literal(*scale), *exponent}, span);
+        return make(Op::exp2, *exponent);
+    }
+
     ExprId power()
     {
         Interval base = range(0);
@@ -219,11 +310,7 @@ private:
             note("held_base");
             base = {0, std::fmax(base.high, 0)};
         }
-        // The guard makes of 0^y the least normal float to the y: below half the least float that
-        // is nothing.
-        constexpr double vanishing = 150.0 / 126;
-        const bool was_bare = old_[id_].op == Op::power && is_safe_power(base, range(1));
-        const bool safe = was_bare || base.low > 0 || range(1).low >= vanishing;
+        const bool safe = is_safe(old_[id_].op, base, range(1));
         const Op op = safe ? Op::power : Op::guarded_power;
         note(safe ? "power_without_guard" : "guarded_power");
         return graph().apply(op, {x, operand(1)}, old_.span(id_));
@@ -242,9 +329,12 @@ Step place_guards(Rebuild& rebuild, const Notes& notes)
     if (!any_expression(old.graph, [&](ExprId id) { return has_domain(old.graph[id].op); }))
         return {};
     const auto inputs = evaluate::declared_ranges(old);
-    Known known{evaluate::ranges(rebuild.old_module(), old, inputs),
+    const auto uses = use_counts(old.graph, old.result);
+    auto ranges = evaluate::ranges(rebuild.old_module(), old, inputs);
+    PowerProducts powers{old.graph, uses, ranges};
+    Known known{std::move(ranges),
                 evaluate::ranges(rebuild.old_module(), old, inputs, evaluate::Arithmetic::reals),
-                guarded_divisions(old), use_counts(old.graph, old.result)};
+                guarded_divisions(old), uses, std::move(powers)};
     return [&rebuild, notes, known = std::move(known)](ExprId id) {
         return Guard{rebuild, known, notes, id}.guarded();
     };

@@ -28,8 +28,10 @@ ir::Module run(const ir::Module& module, const Notes& notes, std::vector<Applica
     const ir::Module stable = checked(stabilize(tidy, applied));
     // What a stable form folds to, and inputs that nothing reads any more.
     const ir::Module clean = checked(simplify_again(tidy, stable));
+    // The powers that no sum took part in.
+    const ir::Module sharp = checked(near_one(clean, notes));
     // After all that looks for what the author wrote.
-    const ir::Module grouped = checked(regroup(clean, notes));
+    const ir::Module grouped = checked(regroup(sharp, notes));
     // Late: what it proves is about the expressions that will be emitted.
     const ir::Module legal = checked(legalize(grouped, notes));
     // Factors of 1 in products, and guards that a sharper range makes needless.

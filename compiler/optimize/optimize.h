@@ -23,6 +23,9 @@ ir::Module cancel(const ir::Module& module);
 /// factored forms, through calls.
 ir::Module stabilize(const ir::Module& module);
 
+/// Large powers of cosines near 1 from what they lack of 1.
+ir::Module near_one(const ir::Module& module);
+
 /// Products of vectors and scalars with the scalars first: fewer operations and roundings.
 ir::Module regroup(const ir::Module& module);
 

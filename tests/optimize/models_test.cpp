@@ -56,9 +56,12 @@ TEST_CASE("every shipped model is legal, settled and unchanged over the real num
             const auto expected = values(module, before, points);
             const auto actual = values(optimized, after, points);
             REQUIRE(expected.size() == actual.size());
-            // 1 - cos loses at most 30 bits of the 200 at these angles.
+            // 1 - cos loses at most 30 bits of the 200 at these angles. Blinn's exponent is at most
+            // 2^25, and the polynomial's logarithm at most log2(16/15), to 2^-31.
+            const bool is_large_power = module[id].name == "D_BlinnPhong";
+            const double slack = is_large_power ? 0x1p25 * 0.0932 * 0.7 * 0x1p-31 : 0x1p-140;
             for (std::size_t i = 0; i < expected.size(); ++i)
-                CHECK(difference(expected[i], actual[i]) < 0x1p-140);
+                CHECK(difference(expected[i], actual[i]) < slack);
         }
     }
 }
@@ -82,8 +85,11 @@ TEST_CASE("the terms whose cancellations are known are the ones that are cured")
     const auto in_callisto = cured("../models/callisto.lobe");
     for (const char* expected :
          {"D_GGX: blend_h", "F_Callisto: one_minus_argument", "blend_weight: one_minus_argument",
-          "alpha_s: one_minus_cos_d", "alpha_s: one_minus_cos_h"}) {
+          "alpha_s: power_of_complement"}) {
         CAPTURE(expected);
         CHECK(std::find(in_callisto.begin(), in_callisto.end(), expected) != in_callisto.end());
     }
+    // 1 + x + x^2 needs no better x than 1 - cos.
+    for (const char* needless : {"alpha_s: one_minus_cos_d", "alpha_s: one_minus_cos_h"})
+        CHECK(std::find(in_callisto.begin(), in_callisto.end(), needless) == in_callisto.end());
 }
