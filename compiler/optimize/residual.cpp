@@ -192,6 +192,33 @@ void keep_parameters(Module& module, const std::vector<bool>& left)
     });
 }
 
+/// A function that only calls another one with what it got: what was around the call is gone.
+bool only_forwards(const Function& function)
+{
+    const Graph& graph = function.graph;
+    return graph[function.result].op == Op::call &&
+           std::ranges::all_of(graph.operands(function.result),
+                               [&](ExprId id) { return graph[id].op == Op::input; });
+}
+
+/// Callers call what these call.
+Module without_forwarding(const Module& module)
+{
+    const std::vector<bool> is_root = root_flags(module);
+    return rewrite(module, [&](Rebuild& rebuild) -> Step {
+        return [&](ExprId id) {
+            const ExprId copy = rebuild.copy(id);
+            const Expr& expr = rebuild.graph[copy];
+            if (expr.op != Op::call || is_root[expr.aux]) return copy;
+            const Function& callee = rebuild.rebuilt(FunctionId{expr.aux});
+            if (!only_forwards(callee)) return copy;
+            const auto operands = rebuild.graph.operands(copy);
+            return inline_body(rebuild.graph, callee,
+                               std::vector(operands.begin(), operands.end()));
+        };
+    });
+}
+
 /// Without functions that nothing calls any more.
 Module without_unused(const Module& module)
 {
@@ -256,7 +283,7 @@ Residual residual(const Module& module, const Called& called, std::string_view m
             .push_back(name);
     }
 
-    current = without_unused(current);
+    current = without_unused(without_forwarding(current));
     for (Packing& packing : current.packings)
         build_functions(current, packing, *current.find_gbuffer(packing.gbuffer));
     assert(!verify(current));

@@ -1,50 +1,20 @@
 // A certificate says that a residual shader is the general one on everything a scene can show, and
 // it must be able to say that it is not.
+#include "analyze/checked.h"
 #include "analyze/residual/certificate.h"
-#include "base/render.h"
-#include "check/check.h"
 
 #include <catch2/catch.hpp>
 
-#include <fstream>
-#include <iterator>
-
 using namespace lobe;
 using namespace lobe::analyze;
+using tests::Checked;
+using tests::checked_model;
 
 namespace {
 
-struct Checked {
-    Sources sources;
-    ir::Module module;
-};
-
-Checked read(const std::string& path)
-{
-    Checked out;
-    const auto add = [](Sources& sources, const std::string& file) -> std::optional<std::uint32_t> {
-        std::ifstream in{file, std::ios::binary};
-        if (!in) return std::nullopt;
-        return sources.add(file, {std::istreambuf_iterator<char>{in}, {}});
-    };
-    const auto root = add(out.sources, path);
-    REQUIRE(root);
-    Diagnostics diagnostics;
-    const auto module = check::check(
-        out.sources, *root,
-        [&](Sources& all, std::string_view name, std::string_view) {
-            return add(all, "../models/" + std::string{name} + ".lobe");
-        },
-        diagnostics);
-    INFO(render_text(out.sources, diagnostics));
-    REQUIRE(module);
-    out.module = *module;
-    return out;
-}
-
 const Checked& callisto()
 {
-    static const Checked checked = read("../models/callisto.lobe");
+    static const Checked checked = checked_model("../models/callisto.lobe");
     return checked;
 }
 
@@ -207,6 +177,18 @@ TEST_CASE("what no proof holds together stays")
     const auto what =
         called(callisto().module, {{"dual_specular_opacity", {0.001}}}, {}, {"Dual Specular"});
     CHECK(dropped(what, 0.05).empty());
+
+    CertificateOptions options = few_points();
+    options.epsilon = 0.05;
+    options.execute = false;
+    const Certificate certificate =
+        certify(callisto().module, callisto().sources, "callisto", what,
+                optimize::residual(callisto().module, what, "callisto"), {}, options, {});
+    CHECK(certificate.ok());
+    REQUIRE(certificate.kept.size() == 1);
+    CHECK(certificate.kept[0].effect == "Dual Specular");
+    CHECK(certificate.kept[0].observed < options.epsilon);
+    CHECK(certificate.kept[0].bound >= options.epsilon);
 }
 
 TEST_CASE("ranges count with their worst end")

@@ -378,6 +378,9 @@ Certificate certify(const ir::Module& general, const Sources& sources, const std
         read(equality.device_outside);
         read(equality.device);
     }
+    optimize::Called left_out = called;
+    for (const Dropped& each : dropped) left_out.off.insert(each.effect);
+    result.kept = not_droppable(general, model, left_out, options);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;

@@ -19,7 +19,7 @@ namespace lobe::analyze {
 /// (packing/radiance.h): relative, or to an 18 % grey card where darker.
 struct Dropped {
     std::string effect;
-    double bound = 0;     ///< proved
+    double bound = 0;     ///< proved; infinite: none is known
     double observed = 0;  ///< the most that a search found
 };
 
@@ -40,6 +40,9 @@ struct Certificate {
     std::string model;
     std::vector<Equality> outputs;  ///< residual against general, both without what was dropped
     std::vector<Dropped> dropped;
+    /// What epsilon was asked about and stays: more was found, or no bound below was, or what went
+    /// before it left too little.
+    std::vector<Dropped> kept;
     double seconds = 0;
     bool ok() const;
 };
@@ -57,6 +60,12 @@ struct CertificateOptions {
 std::vector<Dropped> droppable(const ir::Module& module, const std::string& model,
                                const optimize::Called& called, double epsilon,
                                const CertificateOptions& options);
+
+/// The effects that are still on, whatever their bounds; none for an epsilon of 0. No bound is
+/// looked for where more than epsilon was found.
+std::vector<Dropped> not_droppable(const ir::Module& module, const std::string& model,
+                                   const optimize::Called& called,
+                                   const CertificateOptions& options);
 
 /// `general` is the checked module; the residual was made of it by `called`.
 Certificate certify(const ir::Module& general, const Sources& sources, const std::string& model,

@@ -279,21 +279,36 @@ private:
     std::size_t spent_ = 0;
 };
 
-/// Nothing where it is not proved to stay below epsilon.
-std::optional<Dropped> measured(const ir::Module& general, const std::string& model,
-                                const optimize::Called& called, const ir::Effect& effect,
-                                double epsilon)
+/// What one effect does. The bound is infinite where more than epsilon was found, or it cannot be
+/// switched off by itself.
+Dropped measured(const ir::Module& general, const std::string& model,
+                 const optimize::Called& called, const ir::Effect& effect, double epsilon)
 {
+    Dropped result{effect.name, std::numeric_limits<double>::infinity(), 0};
     const auto experiment = analyze::experiment(general, model, called, effect);
-    if (!experiment) return std::nullopt;
-    Dropped result{effect.name, 0, observed(*experiment)};
-    if (!(result.observed < epsilon)) return std::nullopt;
+    if (!experiment) return result;
+    result.observed = observed(*experiment);
+    if (!(result.observed < epsilon)) return result;
     const double enough = close_enough * result.observed;
     result.bound = Divided{*experiment, experiment->module}.bound(enough);
     if (result.bound > enough)
         result.bound =
             std::min(result.bound, Divided{*experiment, experiment->stable}.bound(enough));
-    if (!(result.bound < epsilon)) return std::nullopt;
+    return result;
+}
+
+/// What the effects that are on do, each by itself.
+std::vector<Dropped> measured(const ir::Module& module, const std::string& model,
+                              const optimize::Called& called, double epsilon, unsigned jobs)
+{
+    const std::vector<std::string> off = optimize::residual(module, called, model).off;
+    std::vector<const ir::Effect*> on;
+    for (const ir::Effect& effect : module.effects)
+        if (std::ranges::count(off, effect.name) == 0) on.push_back(&effect);
+    std::vector<Dropped> result(on.size());
+    for_each_task(on.size(), jobs, [&](std::size_t i) {
+        result[i] = measured(module, model, called, *on[i], epsilon);
+    });
     return result;
 }
 
@@ -306,35 +321,31 @@ std::vector<Dropped> droppable(const ir::Module& module, const std::string& mode
     std::vector<Dropped> result;
     if (!(epsilon > 0)) return result;
 
-    // Each by itself, the least first.
-    const std::vector<std::string> off = optimize::residual(module, called, model).off;
-    std::vector<const ir::Effect*> on;
-    for (const ir::Effect& effect : module.effects)
-        if (std::ranges::count(off, effect.name) == 0) on.push_back(&effect);
-    std::vector<std::optional<Dropped>> alone(on.size());
-    for_each_task(on.size(), options.jobs, [&](std::size_t i) {
-        alone[i] = measured(module, model, called, *on[i], epsilon);
-    });
-    std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < on.size(); ++i)
-        if (alone[i]) order.push_back(i);
-    std::ranges::stable_sort(
-        order, [&](std::size_t a, std::size_t b) { return alone[a]->bound < alone[b]->bound; });
-
-    // Then each without those before it. An error is relative to radiance with the effect, which
-    // for the second one is off by the first: (1 + a) (1 + b) - 1 together.
+    // The least first, and then each without those before it. An error is relative to radiance with
+    // the effect, which for the second one is off by the first: (1 + a) (1 + b) - 1 together.
+    std::vector<Dropped> alone = measured(module, model, called, epsilon, options.jobs);
+    std::ranges::stable_sort(alone, {}, &Dropped::bound);
     optimize::Called left = called;
     double together = 0;
-    for (const std::size_t i : order) {
-        const auto next = result.empty() ? alone[i]
-                                         : measured(module, model, left, *on[i],
-                                                    (epsilon - together) / (1 + together));
-        if (!next) continue;
-        together += next->bound * (1 + together);
-        result.push_back(*next);
-        left.off.insert(next->effect);
+    for (const Dropped& each : alone) {
+        const double rest = (epsilon - together) / (1 + together);
+        if (!(each.bound < epsilon)) continue;
+        const auto effect = std::ranges::find(module.effects, each.effect, &ir::Effect::name);
+        const Dropped next = result.empty() ? each : measured(module, model, left, *effect, rest);
+        if (!(next.bound < rest)) continue;
+        together += next.bound * (1 + together);
+        result.push_back(next);
+        left.off.insert(next.effect);
     }
     return result;
+}
+
+std::vector<Dropped> not_droppable(const ir::Module& module, const std::string& model,
+                                   const optimize::Called& called,
+                                   const CertificateOptions& options)
+{
+    if (!(options.epsilon > 0)) return {};
+    return measured(module, model, called, options.epsilon, options.jobs);
 }
 
 }  // namespace lobe::analyze
