@@ -9,9 +9,9 @@ namespace lobe::analyze {
 namespace {
 
 /// Texels in double, component by component, and how a texture unit reads between them.
-class Grid2 {
+class TexelGrid {
 public:
-    Grid2(const BakeSubject& subject, std::size_t height)
+    TexelGrid(const BakeSubject& subject, std::size_t height)
         : across_(subject.axes.front()), width_(across_.size), height_(height)
     {
         if (subject.axes.size() == 2) down_ = subject.axes[1];
@@ -20,18 +20,26 @@ public:
     /// `steps`: weights are multiples of its inverse; 0: exact.
     double read(const std::vector<double>& texels, Place at, double steps) const
     {
-        const auto [column, right] = split(across_.texel_of(at.x), width_, steps);
-        const auto [row, below] = height_ == 1 ? std::pair<std::size_t, double>{0, 0}
-                                               : split(down_.texel_of(at.y), height_, steps);
+        const Between across = between(across_.texel_of(at.x), width_, steps);
+        const Between down =
+            height_ == 1 ? Between{} : between(down_.texel_of(at.y), height_, steps);
         const auto line = [&](std::size_t y) {
             const double* const first = &texels[y * width_];
-            return std::lerp(first[column], first[std::min(column + 1, width_ - 1)], right);
+            return std::lerp(first[across.texel], first[std::min(across.texel + 1, width_ - 1)],
+                             across.weight);
         };
-        return std::lerp(line(row), line(std::min(row + 1, height_ - 1)), below);
+        return std::lerp(line(down.texel), line(std::min(down.texel + 1, height_ - 1)),
+                         down.weight);
     }
 
 private:
-    static std::pair<std::size_t, double> split(double place, std::size_t size, double steps)
+    /// A texel, and how much of the next one is read.
+    struct Between {
+        std::size_t texel = 0;
+        double weight = 0;
+    };
+
+    static Between between(double place, std::size_t size, double steps)
     {
         const double low = std::floor(std::min(place, static_cast<double>(size - 1)));
         double weight = place - low;
@@ -203,7 +211,7 @@ std::optional<BakedTable> bake(const BakeSubject& subject, const TexelFormat& fo
                   flat ? std::vector<double>{0} : lattice(subject.axes[1], most));
     const auto exact = subject.exact(between);
     out.points = between.size();
-    const Grid2 grid{subject, out.height()};
+    const TexelGrid grid{subject, out.height()};
     for (std::size_t k = 0; k < values.size(); ++k) {
         std::vector<double> stored(texels.size());
         ErrorSum storage;

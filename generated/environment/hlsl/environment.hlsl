@@ -17,14 +17,15 @@
 // steradian is density_GGX_h.
 // Karis13: Karis 2013, Real Shading in Unreal Engine 4
 // Walter07 eq 35: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
-// = let phi = 2 * pi * xi.x; let bottom = 1 - xi.y + alpha^2 * xi.y; let cos_theta = sqrt((1 -
-// xi.y) / bottom); let sin_theta = alpha * sqrt(xi.y / bottom); float3(sin_theta * cos(phi),
-// sin_theta * sin(phi), cos_theta)
+// = let turn = if xi.x > 0.5 then xi.x - 1 else xi.x; let phi = 2 * pi * turn; let bottom = 1 -
+// xi.y + alpha^2 * xi.y; let cos_theta = sqrt((1 - xi.y) / bottom); let sin_theta = alpha *
+// sqrt(xi.y / bottom); float3(sin_theta * cos(phi), sin_theta * sin(phi), cos_theta)
 // Expects xi in [0, 1], alpha in [0.000244140625, 1].
 // models/environment.lobe:30
 float3 ImportanceSampleGGX(float2 xi, float alpha)
 {
-    const float phi = 2.0 * 3.1415927 * xi.x;
+    const float turn = xi.x > 0.5 ? xi.x - 1.0 : xi.x;
+    const float phi = 2.0 * 3.1415927 * turn;
     const float t0 = 1.0 - xi.y;
     const float bottom = t0 + alpha * alpha * xi.y;
     const float t1 = max(bottom, 1.1754944e-38);
@@ -36,7 +37,7 @@ float3 ImportanceSampleGGX(float2 xi, float alpha)
 // The direction that a facet mirrors v to.
 // Walter07 eq 39: Walter et al. 2007, Microfacet Models for Refraction through Rough Surfaces
 // = 2 * dot(v, h) * h - v
-// models/environment.lobe:41
+// models/environment.lobe:43
 float3 mirrored_at(float3 v, float3 h)
 {
     return 2.0 * clamp(dot(v, h), -1.0, 1.0) * h - v;
@@ -61,7 +62,7 @@ float D_GGX(float alpha, float NxH2)
 // = D_GGX(alpha, g) * g.cos_h
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1].
-// models/environment.lobe:45
+// models/environment.lobe:47
 float density_GGX_h(float alpha, float NoH, float NxH2)
 {
     return D_GGX(alpha, NxH2) * NoH;
@@ -72,7 +73,7 @@ float density_GGX_h(float alpha, float NoH, float NxH2)
 // = D_GGX(alpha, g) * g.cos_h / (4 * g.cos_d) else 0
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
 // Expects alpha in [0.000244140625, 1].
-// models/environment.lobe:49
+// models/environment.lobe:51
 float density_GGX_l(float alpha, float NoH, float VoH, float NxH2)
 {
     const float t0 = 4.0 * VoH;
@@ -104,7 +105,7 @@ float V_SchlickGGX(float alpha, float NoL, float NoV)
 // Karis13: Karis 2013, Real Shading in Unreal Engine 4
 // = 4 * V_SchlickGGX(alpha, g) * g.cos_i * g.cos_d / g.cos_h else 0
 // Expects alpha in [0.000244140625, 1].
-// models/environment.lobe:56
+// models/environment.lobe:58
 float sample_weight(float alpha, float NoL, float NoV, float NoH, float VoH)
 {
     const float t0 = 4.0 * V_SchlickGGX(alpha, NoL, NoV) * NoL * VoH / NoH;
@@ -129,7 +130,7 @@ float3 F_Schlick(float3 f0, float one_minus_cos_d)
 // = radiance * F_Schlick(f0, g.cos_d) * sample_weight(alpha, g)
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Expects radiance in [0, 65504], f0 in [0, 1], alpha in [0.000244140625, 1].
-// models/environment.lobe:64
+// models/environment.lobe:66
 float3 SpecularIBL_sample(float3 radiance, float3 f0, float alpha, float NoL, float NoV, float NoH,
     float VoH, float OneMinusVoH)
 {
@@ -142,7 +143,7 @@ float3 SpecularIBL_sample(float3 radiance, float3 f0, float alpha, float NoL, fl
 // = let tail = (1 - g.cos_d)^5; sample_weight(alpha, g) * float2(1 - tail, tail)
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Expects alpha in [0.000244140625, 1].
-// models/environment.lobe:73
+// models/environment.lobe:75
 float2 EnvBRDF_sample(float alpha, float NoL, float NoV, float NoH, float VoH, float OneMinusVoH)
 {
     const float OneMinusVoH2 = OneMinusVoH * OneMinusVoH;
@@ -155,7 +156,7 @@ float2 EnvBRDF_sample(float alpha, float NoL, float NoV, float NoH, float VoH, f
 // = let scaled = slope / alpha; let w = scaled / sqrt(2 + 2 * sqrt(1 + scaled^2)); clamp(2 * w /
 // (1 + sqrt(1 + 4 * w^2)), -0.99, 0.99)
 // Expects slope in [-1, 1], alpha in [0.000244140625, 1]. Returns [-0.99, 0.99].
-// models/environment.lobe:95
+// models/environment.lobe:97
 float substituted_slope(float slope, float alpha)
 {
     const float scaled = slope / alpha;
@@ -190,7 +191,7 @@ float substituted_slope(float slope, float alpha)
 // (dslope_dy / facing) * node_weight float2(shared * j, shared * bias * kappa / (4 * peak^2)) } };
 // lit * (y_last - y_first) / lerp(k, 1, cos_o)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:109
+// models/environment.lobe:111
 float2 EnvBRDF_integrals(float roughness, float NoV)
 {
     const float alpha = roughness * roughness;
@@ -638,7 +639,7 @@ float2 EnvBRDF_integrals(float roughness, float NoV)
 // = let x = 0.9874 - 0.971 * roughness; let a = min(x^2, 2^(-7.1232 * cos_o)) * x; float2(-1.3576
 // * a + 1.1508 - 0.7153 * roughness, 0.8951 * a - 0.0271 + 0.0317 * roughness)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:179
+// models/environment.lobe:181
 float2 EnvBRDF_fit_SchlickGGX(float roughness, float NoV)
 {
     const float x = 0.9874 - 0.971 * roughness;
@@ -652,7 +653,7 @@ float2 EnvBRDF_fit_SchlickGGX(float roughness, float NoV)
 // = let x = 1.2303 - 1.5687 * roughness; let a = min(x^2, 2^(-6.5468 * cos_o)) * x; float2(-0.861
 // * a + 1.0497 - 0.5773 * roughness, 0.5445 * a + 0.1349 - 0.1738 * roughness)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:187
+// models/environment.lobe:189
 float2 EnvBRDF_worst_fit_SchlickGGX(float roughness, float NoV)
 {
     const float x = 1.2303 - 1.5687 * roughness;
@@ -666,7 +667,7 @@ float2 EnvBRDF_worst_fit_SchlickGGX(float roughness, float NoV)
 // = let x = 0.993 - 1.0723 * roughness; let a = min(x^2, 2^(-8.2763 * cos_o)) * x; float2(-1.3344
 // * a + 1.1617 - 0.6761 * roughness, 1.1347 * a - 0.0156 + 0.0267 * roughness)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:195
+// models/environment.lobe:197
 float2 EnvBRDF_fit_SmithGGX(float roughness, float NoV)
 {
     const float x = 0.993 - 1.0723 * roughness;
@@ -680,7 +681,7 @@ float2 EnvBRDF_fit_SmithGGX(float roughness, float NoV)
 // = let x = 1.1178 - 1.7376 * roughness; let a = min(x^2, 2^(-9.9405 * cos_o)) * x; float2(-1.1202
 // * a + 1.1306 - 0.735 * roughness, 0.8295 * a + 0.0338 + 0.0303 * roughness)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:203
+// models/environment.lobe:205
 float2 EnvBRDF_worst_fit_SmithGGX(float roughness, float NoV)
 {
     const float x = 1.1178 - 1.7376 * roughness;
@@ -694,7 +695,7 @@ float2 EnvBRDF_worst_fit_SmithGGX(float roughness, float NoV)
 // = let x = 0.9867 - 1.0229 * roughness; let a = min(x^2, 2^(-8.4426 * cos_o)) * x; float2(-1.2968
 // * a + 1.1373 - 0.5945 * roughness, 1.148 * a - 0.0151 + 0.0276 * roughness)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:211
+// models/environment.lobe:213
 float2 EnvBRDF_fit_SmithGGXCorrelated(float roughness, float NoV)
 {
     const float x = 0.9867 - 1.0229 * roughness;
@@ -708,7 +709,7 @@ float2 EnvBRDF_fit_SmithGGXCorrelated(float roughness, float NoV)
 // = let x = 0.9393 - 1.6679 * roughness; let a = min(x^2, 2^(-18.5328 * cos_o)) * x; float2(-1.415
 // * a + 1.0082 - 0.5217 * roughness, 0.7405 * a + 0.2597 - 0.1825 * roughness)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:219
+// models/environment.lobe:221
 float2 EnvBRDF_worst_fit_SmithGGXCorrelated(float roughness, float NoV)
 {
     const float x = 0.9393 - 1.6679 * roughness;
@@ -721,7 +722,7 @@ float2 EnvBRDF_worst_fit_SmithGGXCorrelated(float roughness, float NoV)
 // Karis13 eq 8: Karis 2013, Real Shading in Unreal Engine 4
 // = let both = EnvBRDF_integrals(roughness, cos_o); both.x - both.y
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:229
+// models/environment.lobe:231
 float EnvBRDF_scale(float roughness, float NoV)
 {
     const float2 both = EnvBRDF_integrals(roughness, NoV);
@@ -756,7 +757,7 @@ float EnvBRDFApprox_scale(float roughness, float NoV)
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = EnvBRDFApprox_scale(roughness, cos_o)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:236
+// models/environment.lobe:238
 float EnvBRDF_scale_analytic_fit(float roughness, float NoV)
 {
     return EnvBRDFApprox_scale(roughness, NoV);
@@ -766,7 +767,7 @@ float EnvBRDF_scale_analytic_fit(float roughness, float NoV)
 // Lazarov13: Lazarov 2013, Getting More Physical in Call of Duty: Black Ops II
 // = EnvBRDF_fit_SchlickGGX(roughness, cos_o).x
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:239
+// models/environment.lobe:241
 float EnvBRDF_scale_mean_fit(float roughness, float NoV)
 {
     return EnvBRDF_fit_SchlickGGX(roughness, NoV).x;
@@ -776,7 +777,7 @@ float EnvBRDF_scale_mean_fit(float roughness, float NoV)
 // Lazarov13: Lazarov 2013, Getting More Physical in Call of Duty: Black Ops II
 // = EnvBRDF_worst_fit_SchlickGGX(roughness, cos_o).x
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:242
+// models/environment.lobe:244
 float EnvBRDF_scale_worst_fit(float roughness, float NoV)
 {
     return EnvBRDF_worst_fit_SchlickGGX(roughness, NoV).x;
@@ -786,7 +787,7 @@ float EnvBRDF_scale_worst_fit(float roughness, float NoV)
 // Karis13 eq 8: Karis 2013, Real Shading in Unreal Engine 4
 // = EnvBRDF_integrals(roughness, cos_o).y
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:246
+// models/environment.lobe:248
 float EnvBRDF_bias(float roughness, float NoV)
 {
     return EnvBRDF_integrals(roughness, NoV).y;
@@ -808,7 +809,7 @@ float EnvBRDFApprox_bias(float roughness, float NoV)
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = EnvBRDFApprox_bias(roughness, cos_o)
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:251
+// models/environment.lobe:253
 float EnvBRDF_bias_analytic_fit(float roughness, float NoV)
 {
     return EnvBRDFApprox_bias(roughness, NoV);
@@ -818,7 +819,7 @@ float EnvBRDF_bias_analytic_fit(float roughness, float NoV)
 // Lazarov13: Lazarov 2013, Getting More Physical in Call of Duty: Black Ops II
 // = EnvBRDF_fit_SchlickGGX(roughness, cos_o).y
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:254
+// models/environment.lobe:256
 float EnvBRDF_bias_mean_fit(float roughness, float NoV)
 {
     return EnvBRDF_fit_SchlickGGX(roughness, NoV).y;
@@ -828,7 +829,7 @@ float EnvBRDF_bias_mean_fit(float roughness, float NoV)
 // Lazarov13: Lazarov 2013, Getting More Physical in Call of Duty: Black Ops II
 // = EnvBRDF_worst_fit_SchlickGGX(roughness, cos_o).y
 // Expects roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:257
+// models/environment.lobe:259
 float EnvBRDF_bias_worst_fit(float roughness, float NoV)
 {
     return EnvBRDF_worst_fit_SchlickGGX(roughness, NoV).y;
@@ -838,7 +839,7 @@ float EnvBRDF_bias_worst_fit(float roughness, float NoV)
 // Karis13 eq 8: Karis 2013, Real Shading in Unreal Engine 4
 // = let both = EnvBRDF_integrals(roughness, cos_o); f0 * (both.x - both.y) + both.y
 // Expects f0 in [0, 1], roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:261
+// models/environment.lobe:263
 float3 EnvBRDF(float3 f0, float roughness, float NoV)
 {
     const float2 both = EnvBRDF_integrals(roughness, NoV);
@@ -850,7 +851,7 @@ float3 EnvBRDF(float3 f0, float roughness, float NoV)
 // Karis14: Karis 2014, Physically Based Shading on Mobile
 // = f0 * EnvBRDFApprox_scale(roughness, cos_o) + EnvBRDFApprox_bias(roughness, cos_o)
 // Expects f0 in [0, 1], roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:268
+// models/environment.lobe:270
 float3 EnvBRDF_analytic_fit(float3 f0, float roughness, float NoV)
 {
     const float3 t0 = f0 * EnvBRDFApprox_scale(roughness, NoV);
@@ -861,7 +862,7 @@ float3 EnvBRDF_analytic_fit(float3 f0, float roughness, float NoV)
 // Lazarov13: Lazarov 2013, Getting More Physical in Call of Duty: Black Ops II
 // = let both = EnvBRDF_fit_SchlickGGX(roughness, cos_o); f0 * both.x + both.y
 // Expects f0 in [0, 1], roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:272
+// models/environment.lobe:274
 float3 EnvBRDF_mean_fit(float3 f0, float roughness, float NoV)
 {
     const float2 both = EnvBRDF_fit_SchlickGGX(roughness, NoV);
@@ -872,7 +873,7 @@ float3 EnvBRDF_mean_fit(float3 f0, float roughness, float NoV)
 // Lazarov13: Lazarov 2013, Getting More Physical in Call of Duty: Black Ops II
 // = let both = EnvBRDF_worst_fit_SchlickGGX(roughness, cos_o); f0 * both.x + both.y
 // Expects f0 in [0, 1], roughness in [0.015625, 1], NoV in [0, 1].
-// models/environment.lobe:278
+// models/environment.lobe:280
 float3 EnvBRDF_worst_fit(float3 f0, float roughness, float NoV)
 {
     const float2 both = EnvBRDF_worst_fit_SchlickGGX(roughness, NoV);
@@ -884,7 +885,7 @@ float3 EnvBRDF_worst_fit(float3 f0, float roughness, float NoV)
 // Karis13 eq 7: Karis 2013, Real Shading in Unreal Engine 4
 // = prefiltered * (f0 * env_brdf.x + env_brdf.y)
 // Expects prefiltered in [0, 65504], f0 in [0, 1], env_brdf in [0, 1].
-// models/environment.lobe:286
+// models/environment.lobe:288
 float3 SpecularIBL(float3 prefiltered, float3 f0, float2 env_brdf)
 {
     return prefiltered * (f0 * env_brdf.x + env_brdf.y);
@@ -902,7 +903,7 @@ float3 SpecularIBL(float3 prefiltered, float3 f0, float2 env_brdf)
 // Expects l00 in [-65504, 65504], l1m1 in [-65504, 65504], l10 in [-65504, 65504], l11 in
 // [-65504, 65504], l2m2 in [-65504, 65504], l2m1 in [-65504, 65504], l20 in [-65504, 65504], l21
 // in [-65504, 65504], l22 in [-65504, 65504].
-// models/environment.lobe:293
+// models/environment.lobe:295
 float3 IrradianceSH(float3 n, float3 l00, float3 l1m1, float3 l10, float3 l11, float3 l2m2,
     float3 l2m1, float3 l20, float3 l21, float3 l22)
 {
@@ -918,7 +919,7 @@ float3 IrradianceSH(float3 n, float3 l00, float3 l1m1, float3 l10, float3 l11, f
 // Lambert60: Lambert 1760, Photometria
 // = diffuse_color / pi * irradiance
 // Expects diffuse_color in [0, 1], irradiance in [0, 65504].
-// models/environment.lobe:316
+// models/environment.lobe:318
 float3 DiffuseIBL(float3 diffuse_color, float3 irradiance)
 {
     return diffuse_color / 3.1415927 * irradiance;
