@@ -8,25 +8,20 @@
 #ifndef LOBE_MICROFACET_GLSL
 #define LOBE_MICROFACET_GLSL
 
-#ifndef LOBE_guarded_power_float
-#define LOBE_guarded_power_float
-// x^y for x >= 0, and 1 where y is 0: an x below the least normal number counts as that.
-float guarded_power(float x, float y)
-{
-    return pow(max(x, 1.17549435e-38), y);
-}
-#endif
-
 // Blinn-Phong distribution, with the exponent that gives it the peak of the others.
 // Blinn77: Blinn 1977, Models of Light Reflection for Computer Synthesized Pictures
 // Karis13b: Karis 2013, Specular BRDF Reference
 // = 1 / (pi * alpha^2) * g.cos_h^(2 / alpha^2 - 2)
+// OneMinusNoH is |n - h|^2 / 2.
 // Expects alpha in [0.000244140625, 1].
 // models/microfacet.lobe:30
-float D_BlinnPhong(float alpha, float NoH)
+float D_BlinnPhong(float alpha, float NoH, float OneMinusNoH)
 {
     float alpha2 = alpha * alpha;
-    return 1.0 / (3.1415927 * alpha2) * guarded_power(NoH, 2.0 / alpha2 - 2.0);
+    float t0 = 0.48095083 + OneMinusNoH * (0.35835603 + OneMinusNoH * 0.32968947);
+    float t1 = -(OneMinusNoH * (1.442695 + OneMinusNoH * (0.7213471 + OneMinusNoH * t0)));
+    float logarithm = OneMinusNoH < 0.0625 ? t1 : log2(max(NoH, 1.1754944e-38));
+    return 1.0 / (3.1415927 * alpha2) * exp2((2.0 / alpha2 - 2.0) * logarithm);
 }
 
 // Beckmann distribution: Gaussian slopes.

@@ -245,7 +245,7 @@ DefaultLitResult default_lit(vec3 l, vec3 v, vec3 n, DefaultLitSurface surface)
     float length_squared = dot(l_plus_v, l_plus_v);
     float lacks_h = clamp(1.0 - 2.1267648e37 * length_squared, 0.0, 1.0);
     float t0 = clamp(0.5 * dot(n_minus_h, n_minus_h) + lacks_h, 0.0, 1.0);
-    float NxH2 = clamp(t0 * (2.0 - t0), 0.0, 1.0);
+    float NxH2 = clamp(t0 + t0 * (1.0 - t0), 0.0, 1.0);
     vec3 l_minus_v = l - v;
     float inverse_length = inversesqrt(max(length_squared, 1.1754944e-38));
     float t1 = 4.0 + 4.0 * clamp(0.5 * (length_squared * inverse_length), 0.0, 1.0);
@@ -290,7 +290,7 @@ MobileResult mobile(vec3 l, vec3 v, vec3 n, MobileSurface surface)
     float length_squared = dot(l_plus_v, l_plus_v);
     float lacks_h = clamp(1.0 - 2.1267648e37 * length_squared, 0.0, 1.0);
     float t0 = clamp(0.5 * dot(n_minus_h, n_minus_h) + lacks_h, 0.0, 1.0);
-    float NxH2 = clamp(t0 * (2.0 - t0), 0.0, 1.0);
+    float NxH2 = clamp(t0 + t0 * (1.0 - t0), 0.0, 1.0);
     MobileResult result;
     result.diffuse = mobile_diffuse(NoL, surface.base_color, surface.metallic);
     result.specular = mobile_specular(NoL, NxH2, surface.base_color, surface.metallic,

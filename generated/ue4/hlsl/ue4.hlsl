@@ -245,7 +245,7 @@ DefaultLitResult default_lit(float3 l, float3 v, float3 n, DefaultLitSurface sur
     const float length_squared = dot(l_plus_v, l_plus_v);
     const float lacks_h = saturate(1.0 - 2.1267648e37 * length_squared);
     const float t0 = saturate(0.5 * dot(n_minus_h, n_minus_h) + lacks_h);
-    const float NxH2 = saturate(t0 * (2.0 - t0));
+    const float NxH2 = saturate(t0 + t0 * (1.0 - t0));
     const float3 l_minus_v = l - v;
     const float inverse_length = rsqrt(max(length_squared, 1.1754944e-38));
     const float t1 = 4.0 + 4.0 * saturate(0.5 * (length_squared * inverse_length));
@@ -290,7 +290,7 @@ MobileResult mobile(float3 l, float3 v, float3 n, MobileSurface surface)
     const float length_squared = dot(l_plus_v, l_plus_v);
     const float lacks_h = saturate(1.0 - 2.1267648e37 * length_squared);
     const float t0 = saturate(0.5 * dot(n_minus_h, n_minus_h) + lacks_h);
-    const float NxH2 = saturate(t0 * (2.0 - t0));
+    const float NxH2 = saturate(t0 + t0 * (1.0 - t0));
     MobileResult result;
     result.diffuse = mobile_diffuse(NoL, surface.base_color, surface.metallic);
     result.specular = mobile_specular(NoL, NxH2, surface.base_color, surface.metallic,
