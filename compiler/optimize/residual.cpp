@@ -244,7 +244,10 @@ Limits limits_of(const Module& module, const Called& called)
 Residual residual(const Module& module, const Called& called, std::string_view model)
 {
     Residual result;
-    Module current = of_model(module, model);
+    Module current = without_unused(of_model(module, model));
+    // No pass reads them, and every pass would copy them.
+    std::vector<Gbuffer> gbuffers = std::move(current.gbuffers);
+    current.gbuffers.clear();
     const Effects effects{current, called};
 
     // First the effects alone, so that it is known what only they read.
@@ -284,6 +287,7 @@ Residual residual(const Module& module, const Called& called, std::string_view m
     }
 
     current = without_unused(without_forwarding(current));
+    current.gbuffers = std::move(gbuffers);
     for (Packing& packing : current.packings)
         build_functions(current, packing, *current.find_gbuffer(packing.gbuffer));
     assert(!verify(current));
