@@ -16,7 +16,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 namespace lobe::analyze {
 namespace {
