@@ -114,6 +114,46 @@ TEST_CASE("a module's file and its packing's stand in one shader", "[emit][judge
     }
 }
 
+TEST_CASE("models under lights have a file of their own, which stands beside the module's",
+          "[emit][judged][lights]")
+{
+    const Shipped input = written(R"(
+module scene
+import lights { point, capsule }
+model matte(g: geometry, s: surface) {
+  diffuse  = s.diffuse_color * g.cos_i
+  specular = s.f0 * g.cos_h * g.cos_i
+}
+light flash(e: emitter) {
+  direction  = e.l
+  irradiance = 1 / (e.distance_squared + 1)
+}
+)");
+    for (const emit::Target& target : emit::targets()) {
+        CAPTURE(target.name);
+        const auto artifacts = emit::emit(input.module, input.sources, target);
+        REQUIRE(artifacts.size() == 2);
+        const bool unreal = target.name == "ue4";
+        CHECK(artifacts[1].path == "scene/" + target.name +
+                                       (unreal ? "/SceneLights" : "/scene_lights") +
+                                       target.extension);
+        for (const emit::Artifact& artifact : artifacts) check_file(artifact, target);
+        const std::string& text = artifacts[1].text;
+        for (const char* name : {"flash", "point", "capsule"})
+            CHECK(artifacts[1].text.find(unreal ? "ShadeMatte"
+                                                : "shade_matte_" + std::string{name}) !=
+                  std::string::npos);
+        // Lights that nobody asked for, and what only they call, are not there.
+        for (const char* name : {"punctual", "Punctual", "cone", "Cone"})
+            CHECK(text.find(name) == std::string::npos);
+        emit::Artifact both = artifacts[0];
+        both.text += artifacts[1].text;
+        both.calls.insert(both.calls.end(), artifacts[1].calls.begin(), artifacts[1].calls.end());
+        check_file(both, target);
+    }
+    check_harnesses(input);
+}
+
 TEST_CASE("no line of a generated file is wider than a page, but the BxDF's own signature",
           "[emit]")
 {

@@ -18,24 +18,37 @@ std::string read(const std::string& path)
     return text.str();
 }
 
+std::uint32_t add_model(Sources& sources, std::string_view module)
+{
+    const std::string path = "models/" + std::string{module} + ".lobe";
+    return sources.add(path, read("../" + path));
+}
+
+void compile(Shipped& result, std::uint32_t root)
+{
+    Diagnostics diagnostics;
+    const check::Loader loader = [](Sources& all, std::string_view module,
+                                    std::string_view) -> std::optional<std::uint32_t> {
+        return add_model(all, module);
+    };
+    const auto module = front(result.sources, root, loader, diagnostics);
+    REQUIRE(module.has_value());
+    result.module = middle(*module);
+}
+
 }  // namespace
 
 Shipped shipped(const std::string& name)
 {
     Shipped result;
-    Diagnostics diagnostics;
-    const auto add = [](Sources& all, std::string_view module) {
-        const std::string path = "models/" + std::string{module} + ".lobe";
-        return all.add(path, read("../" + path));
-    };
-    const std::uint32_t root = add(result.sources, name);
-    const check::Loader loader = [&](Sources& all, std::string_view module,
-                                     std::string_view) -> std::optional<std::uint32_t> {
-        return add(all, module);
-    };
-    const auto module = front(result.sources, root, loader, diagnostics);
-    REQUIRE(module.has_value());
-    result.module = middle(*module);
+    compile(result, add_model(result.sources, name));
+    return result;
+}
+
+Shipped written(const std::string& text)
+{
+    Shipped result;
+    compile(result, result.sources.add("written.lobe", text));
     return result;
 }
 

@@ -15,5 +15,7 @@ struct Shipped {
 
 /// `models/<name>.lobe`, optimized. Fails the test when it does not compile.
 Shipped shipped(const std::string& name);
+/// The module of a text of one's own, which may import those.
+Shipped written(const std::string& text);
 
 }  // namespace lobe::tests

@@ -75,7 +75,7 @@ float cone(float cos_angle, float cos_inner, float cos_outer)
 
 // Alpha of a highlight that is as wide as the source makes it.
 // Karis13 eq 10: Karis 2013, Real Shading in Unreal Engine 4
-// = saturate(alpha + source_radius / (3 * distance) else 1)
+// = saturate(alpha + (source_radius / (3 * distance) else 1))
 // Expects alpha in [0.000244140625, 1], source_radius in [0, 4096], distance_ in [0, 33554432].
 // Returns [0.000244140625, 1].
 // models/lights.lobe:53
@@ -90,7 +90,7 @@ float alpha_prime(float alpha, float source_radius, float distance_)
 // = min(alpha / alpha_prime(alpha, source_radius, distance), 1)
 // Expects alpha in [0.000244140625, 1], source_radius in [0, 4096], distance_ in [0, 33554432].
 // Returns [0, 1].
-// models/lights.lobe:62
+// models/lights.lobe:61
 float LineNormalization(float alpha, float source_radius, float distance_)
 {
     return min(alpha / alpha_prime(alpha, source_radius, distance_), 1.0);
@@ -101,7 +101,7 @@ float LineNormalization(float alpha, float source_radius, float distance_)
 // = LineNormalization(alpha, source_radius, distance)^2
 // Expects alpha in [0.000244140625, 1], source_radius in [0, 4096], distance_ in [0, 33554432].
 // Returns [0, 1].
-// models/lights.lobe:71
+// models/lights.lobe:69
 float SphereNormalization(float alpha, float source_radius, float distance_)
 {
     float LineNormalization_value = LineNormalization(alpha, source_radius, distance_);
@@ -113,7 +113,7 @@ float SphereNormalization(float alpha, float source_radius, float distance_)
 // = let center_to_ray = dot(to_light, r) * r - to_light; to_light + center_to_ray *
 // saturate(radius / length(center_to_ray) else 1)
 // Expects to_light in [-33554432, 33554432], radius in [0, 4096].
-// models/lights.lobe:82
+// models/lights.lobe:79
 vec3 closest_on_sphere(vec3 to_light, vec3 r, float radius)
 {
     vec3 center_to_ray = dot(to_light, r) * r - to_light;
@@ -128,7 +128,7 @@ vec3 closest_on_sphere(vec3 to_light, vec3 r, float radius)
 // Karis13 eq 19: Karis 2013, Real Shading in Unreal Engine 4
 // = let across = cross(axis, r); -dot(across, cross(to_light, r)) / dot(across, across) else 0
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:95
+// models/lights.lobe:92
 float along_tube(vec3 to_light, vec3 axis, vec3 r)
 {
     vec3 across = cross(axis, r);
@@ -140,7 +140,7 @@ float along_tube(vec3 to_light, vec3 axis, vec3 r)
 // Karis13 eq 17: Karis 2013, Real Shading in Unreal Engine 4
 // = to_light + clamp(along_tube(to_light, axis, r), -half_length, half_length) * axis
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:111
+// models/lights.lobe:108
 vec3 closest_on_tube(vec3 to_light, vec3 axis, vec3 r, float half_length)
 {
     vec3 t0 = clamp(along_tube(to_light, axis, r), -half_length, half_length) * axis;
@@ -152,7 +152,7 @@ vec3 closest_on_tube(vec3 to_light, vec3 axis, vec3 r, float half_length)
 // Karis13 eq 15: Karis 2013, Real Shading in Unreal Engine 4
 // = (normalize(l0) + normalize(l1)) / 2
 // Expects l0 in [-33554432, 33554432], l1 in [-33554432, 33554432].
-// models/lights.lobe:124
+// models/lights.lobe:120
 vec3 line_vector(vec3 l0, vec3 l1)
 {
     return (guarded_normalize(l0) + guarded_normalize(l1)) / 2.0;
@@ -165,7 +165,7 @@ vec3 line_vector(vec3 l0, vec3 l1)
 // = let agreement = min(length(line_vector(l0, l1)), 1); agreement / (length(l0) * length(l1) *
 // agreement^2 + 1)
 // Expects l0 in [-33554432, 33554432], l1 in [-33554432, 33554432]. Returns [0, 1].
-// models/lights.lobe:131
+// models/lights.lobe:127
 float line_irradiance(vec3 l0, vec3 l1)
 {
     float agreement = min(length(line_vector(l0, l1)), 1.0);
@@ -176,7 +176,7 @@ float line_irradiance(vec3 l0, vec3 l1)
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:141
+// models/lights.lobe:137
 vec3 directional_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -186,7 +186,7 @@ vec3 directional_direction(vec3 to_light)
 // From everywhere the same: a sun, in lux.
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = 1
-// models/lights.lobe:142
+// models/lights.lobe:138
 float directional_irradiance()
 {
     return 1.0;
@@ -195,7 +195,7 @@ float directional_irradiance()
 // Karis13 eq 9: Karis 2013, Real Shading in Unreal Engine 4
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:147
+// models/lights.lobe:143
 vec3 point_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -205,7 +205,7 @@ vec3 point_direction(vec3 to_light)
 // Karis13 eq 9: Karis 2013, Real Shading in Unreal Engine 4
 // = falloff(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], inverse_range in [0, 4096].
-// models/lights.lobe:148
+// models/lights.lobe:144
 float point_irradiance(vec3 to_light, float inverse_range)
 {
     float distance_squared = dot(to_light, to_light);
@@ -216,7 +216,7 @@ float point_irradiance(vec3 to_light, float inverse_range)
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:154
+// models/lights.lobe:150
 vec3 punctual_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -227,7 +227,7 @@ vec3 punctual_direction(vec3 to_light)
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = falloff_punctual(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], inverse_range in [0, 4096].
-// models/lights.lobe:155
+// models/lights.lobe:151
 float punctual_irradiance(vec3 to_light, float inverse_range)
 {
     float distance_squared = dot(to_light, to_light);
@@ -238,7 +238,7 @@ float punctual_irradiance(vec3 to_light, float inverse_range)
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:161
+// models/lights.lobe:157
 vec3 spot_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -251,7 +251,7 @@ vec3 spot_direction(vec3 to_light)
 // e.cos_outer)
 // Expects to_light in [-16777216, 16777216], inverse_range in [0, 4096], cos_inner in [0, 1],
 // cos_outer in [0, 1].
-// models/lights.lobe:162
+// models/lights.lobe:158
 float spot_irradiance(vec3 to_light, vec3 axis, float inverse_range, float cos_inner,
     float cos_outer)
 {
@@ -265,7 +265,7 @@ float spot_irradiance(vec3 to_light, vec3 axis, float inverse_range, float cos_i
 // Karis13 eq 11: Karis 2013, Real Shading in Unreal Engine 4
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:169
+// models/lights.lobe:166
 vec3 sphere_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -276,7 +276,7 @@ vec3 sphere_direction(vec3 to_light)
 // Karis13 eq 11: Karis 2013, Real Shading in Unreal Engine 4
 // = falloff(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], inverse_range in [0, 4096].
-// models/lights.lobe:170
+// models/lights.lobe:167
 float sphere_irradiance(vec3 to_light, float inverse_range)
 {
     float distance_squared = dot(to_light, to_light);
@@ -287,7 +287,7 @@ float sphere_irradiance(vec3 to_light, float inverse_range)
 // Karis13 eq 11: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(closest_on_sphere(e.to_light, e.r, e.radius))
 // Expects to_light in [-16777216, 16777216], radius in [0, 4096].
-// models/lights.lobe:171
+// models/lights.lobe:168
 vec3 sphere_specular_direction(vec3 to_light, float radius, vec3 v, vec3 n)
 {
     vec3 r = 2.0 * dot(n, v) * n - v;
@@ -298,7 +298,7 @@ vec3 sphere_specular_direction(vec3 to_light, float radius, vec3 v, vec3 n)
 // Karis13 eq 11: Karis 2013, Real Shading in Unreal Engine 4
 // = SphereNormalization(s.alpha, e.radius, length(e.to_light))
 // Expects to_light in [-16777216, 16777216], radius in [0, 4096].
-// models/lights.lobe:172
+// models/lights.lobe:169
 float sphere_specular_gain(vec3 to_light, float radius, float roughness)
 {
     return SphereNormalization(roughness * roughness, radius, length(to_light));
@@ -309,7 +309,7 @@ float sphere_specular_gain(vec3 to_light, float radius, float roughness)
 // Karis13 eq 16: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(line_vector(l0, l1))
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:181
+// models/lights.lobe:178
 vec3 tube_direction(vec3 to_light, vec3 axis, float half_length)
 {
     vec3 t0 = half_length * axis;
@@ -323,7 +323,7 @@ vec3 tube_direction(vec3 to_light, vec3 axis, float half_length)
 // Karis13 eq 16: Karis 2013, Real Shading in Unreal Engine 4
 // = line_irradiance(l0, l1) * window(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096], inverse_range in [0, 4096].
-// models/lights.lobe:182
+// models/lights.lobe:179
 float tube_irradiance(vec3 to_light, vec3 axis, float half_length, float inverse_range)
 {
     vec3 t0 = half_length * axis;
@@ -338,7 +338,7 @@ float tube_irradiance(vec3 to_light, vec3 axis, float half_length, float inverse
 // Karis13 eq 16: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(closest_on_tube(e.to_light, e.axis, e.r, e.half_length))
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:183
+// models/lights.lobe:180
 vec3 tube_specular_direction(vec3 to_light, vec3 axis, float half_length, vec3 v, vec3 n)
 {
     vec3 r = 2.0 * dot(n, v) * n - v;
@@ -350,7 +350,7 @@ vec3 tube_specular_direction(vec3 to_light, vec3 axis, float half_length, vec3 v
 // Karis13 eq 16: Karis 2013, Real Shading in Unreal Engine 4
 // = LineNormalization(s.alpha, e.half_length, length(e.to_light))
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:184
+// models/lights.lobe:181
 float tube_specular_gain(vec3 to_light, float half_length, float roughness)
 {
     return LineNormalization(roughness * roughness, half_length, length(to_light));
@@ -361,7 +361,7 @@ float tube_specular_gain(vec3 to_light, float half_length, float roughness)
 // Karis13 eq 17: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(line_vector(l0, l1))
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:194
+// models/lights.lobe:191
 vec3 capsule_direction(vec3 to_light, vec3 axis, float half_length)
 {
     vec3 t0 = half_length * axis;
@@ -375,7 +375,7 @@ vec3 capsule_direction(vec3 to_light, vec3 axis, float half_length)
 // Karis13 eq 17: Karis 2013, Real Shading in Unreal Engine 4
 // = line_irradiance(l0, l1) * window(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096], inverse_range in [0, 4096].
-// models/lights.lobe:195
+// models/lights.lobe:192
 float capsule_irradiance(vec3 to_light, vec3 axis, float half_length, float inverse_range)
 {
     vec3 t0 = half_length * axis;
@@ -390,7 +390,7 @@ float capsule_irradiance(vec3 to_light, vec3 axis, float half_length, float inve
 // Karis13 eq 17: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(closest_on_sphere(nearest, e.r, e.radius))
 // Expects to_light in [-16777216, 16777216], radius in [0, 4096], half_length in [0, 4096].
-// models/lights.lobe:196
+// models/lights.lobe:193
 vec3 capsule_specular_direction(vec3 to_light, vec3 axis, float radius, float half_length, vec3 v,
     vec3 n)
 {
@@ -405,7 +405,7 @@ vec3 capsule_specular_direction(vec3 to_light, vec3 axis, float radius, float ha
 // = LineNormalization(s.alpha, e.half_length, length(e.to_light)) * SphereNormalization(s.alpha,
 // e.radius, length(e.to_light))
 // Expects to_light in [-16777216, 16777216], radius in [0, 4096], half_length in [0, 4096].
-// models/lights.lobe:197
+// models/lights.lobe:194
 float capsule_specular_gain(vec3 to_light, float radius, float half_length, float roughness)
 {
     float roughness2 = roughness * roughness;
