@@ -18,6 +18,7 @@ void add_patch(CLI::App& app, const Terminal& terminal, int& status);
 void add_scene(CLI::App& app, const Terminal& terminal, int& status);
 void add_specialize(CLI::App& app, const Terminal& terminal, int& status);
 void add_ladder(CLI::App& app, const Terminal& terminal, int& status);
+void add_render(CLI::App& app, const Terminal& terminal, int& status);
 void add_verify(CLI::App& app, const Terminal& terminal, int& status);
 void add_stability(CLI::App& app, const Terminal& terminal, int& status);
 void add_table(CLI::App& app, const Terminal& terminal, int& status);

@@ -53,6 +53,7 @@ int main(int argc, char** argv)
     add_scene(app, terminal, status);
     add_specialize(app, terminal, status);
     add_ladder(app, terminal, status);
+    add_render(app, terminal, status);
     add_stability(app, terminal, status);
     add_table(app, terminal, status);
     add_verify(app, terminal, status);

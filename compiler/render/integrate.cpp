@@ -1,6 +1,7 @@
 #include "render/integrate.h"
 
 #include "analyze/random.h"
+#include "analyze/residual/facts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,9 @@ using analyze::Random;
 
 /// Far enough from a surface that rounding does not put its own triangle in the way.
 constexpr float lift = 0x1p-12F;
+
+/// Of a meter: what lengths are in where lights are asked, and candela per square of it.
+constexpr float centimeters = 100;
 
 /// Unit vectors around n in the density of GGX's half vectors, D cos. Karis 2013, section on image
 /// based lighting; Walter et al. 2007, equations 35 and 36.
@@ -71,8 +75,8 @@ Lighting::Lighting(const scene::Scene& scene, const Geometry& geometry, const Sk
     : scene_{scene}, geometry_{geometry}, sky_{sky}, directions_{options.directions},
       values_{scene, *shader.module}, radiance_{*shader.module, shader.radiance, values_}
 {
-    for (const auto& [kind, function] : shader.lit)
-        lit_.emplace(kind, Program{*shader.module, function, values_});
+    for (const auto& [name, function] : shader.lit)
+        lit_.emplace(name, Program{*shader.module, function, values_});
 }
 
 std::vector<Vector3> Lighting::light(const std::vector<Seen>& points) const
@@ -135,7 +139,7 @@ void Lighting::add_light(const scene::Light& light, const std::vector<Seen>& poi
     std::vector<bool> dark(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vector3 to_light = far ? -axis : center - points[i].point.position;
-        place(batch.emitter, 0, i, to_light);
+        place(batch.emitter, 0, i, far ? to_light : to_light * centimeters);
         place(batch.emitter, 3, i, axis);
         for (std::size_t k = 0; k < shape.size(); ++k) batch.emitter[6 + k][i] = shape[k];
         const Vector3 l = normalized(to_light);
@@ -147,7 +151,7 @@ void Lighting::add_light(const scene::Light& light, const std::vector<Seen>& poi
             geometry_.blocked({points[i].shadow_from + points[i].point.facet * above, l}, distance);
         // What is below the horizon of the facet alone is lit: the surface is smooth there.
     }
-    lit_.at(light.kind).run(batch);
+    lit_.at(analyze::light_name(light)).run(batch);
     const Vector3 color =
         Vector3{number(light.color[0]), number(light.color[1]), number(light.color[2])} *
         number(light.intensity);

@@ -42,7 +42,7 @@ private:
     int directions_;
     MaterialValues values_;
     Program radiance_;
-    std::map<scene::Light::Kind, Program> lit_;
+    std::map<std::string, Program> lit_;
 };
 
 }  // namespace lobe::render

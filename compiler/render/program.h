@@ -26,8 +26,8 @@ struct Batch {
 
 /// What a program may ask of a light, by its columns' names.
 inline constexpr std::array<std::string_view, 11> emitter_columns{
-    "to_light.x", "to_light.y",  "to_light.z", "axis.x",    "axis.y",   "axis.z",
-    "radius",     "half_length", "range",      "cos_inner", "cos_outer"};
+    "to_light.x", "to_light.y",  "to_light.z",    "axis.x",    "axis.y",   "axis.z",
+    "radius",     "half_length", "inverse_range", "cos_inner", "cos_outer"};
 
 class Program {
 public:

@@ -7,11 +7,28 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 namespace lobe::render {
 namespace {
 
 constexpr int tile = 16;  // pixels along an edge
+
+/// What a ray meets, past what masks cut out of at most so many surfaces.
+std::optional<std::pair<Hit, SurfacePoint>> first_seen(const scene::Scene& scene,
+                                                       const Geometry& geometry, Ray ray)
+{
+    constexpr int most = 64;
+    for (int i = 0; i < most; ++i) {
+        const auto hit = geometry.first(ray);
+        if (!hit) return std::nullopt;
+        const SurfacePoint point = surface_point(scene, geometry, ray, *hit);
+        if (!is_cut_out(scene, point)) return std::pair{*hit, point};
+        ray.origin = point.position + ray.direction * (0x1p-12F * (1 + hit->distance));
+    }
+    return std::nullopt;
+}
 
 }  // namespace
 
@@ -51,15 +68,20 @@ Picture render(const scene::Scene& scene, const Look& look, const RenderOptions&
                     };
                     const float across = place(k % rays, x);
                     const Ray ray = camera.through(across, place(k / rays, y));
-                    const auto hit = geometry.first(ray);
+                    const auto hit = first_seen(scene, geometry, ray);
                     if (!hit) {
                         picture.radiance[pixel] =
                             picture.radiance[pixel] + sky.radiance(ray.direction) * share;
                         continue;
                     }
-                    const SurfacePoint point = surface_point(scene, geometry, ray, *hit);
+                    const auto& [where, point] = *hit;
+                    if (scene.materials[point.material].is_unlit) {
+                        picture.radiance[pixel] =
+                            picture.radiance[pixel] + emission(scene, point) * share;
+                        continue;
+                    }
                     seen[look.shader_of[point.material]].push_back(
-                        {point, shadow_origin(scene, geometry, *hit, point), pixel, ~seed});
+                        {point, shadow_origin(scene, geometry, where, point), pixel, ~seed});
                 }
             }
         for (std::size_t s = 0; s < lighting.size(); ++s) {

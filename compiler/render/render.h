@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace lobe::render {
@@ -20,8 +21,9 @@ namespace lobe::render {
 struct Shader {
     const ir::Module* module = nullptr;
     ir::Function radiance;  ///< of light from l: the model's outputs together, f cos_i
-    std::map<scene::Light::Kind, ir::Function> lit;  ///< the same under a light of this kind, of
-                                                     ///< intensity 1
+    /// The same under one of the scene's lights, of intensity 1, by the light's name in
+    /// models/lights.lobe (see analyze::light_name). Lengths are in centimeters.
+    std::map<std::string, ir::Function> lit;
 };
 
 struct Look {
@@ -33,13 +35,13 @@ struct RenderOptions {
     int width = 512;
     int height = 512;
     int rays = 2;         ///< squared: places per pixel
-    int directions = 32;  ///< of the environment, per place
+    int directions = 64;  ///< of the environment, per place
     unsigned jobs = 0;
     /// Rows of tiles done, of how many; from any thread, one call at a time.
     std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
-/// Every kind of light that the scene has must be in every shader's `lit`. A scene without lights
+/// Every light that the scene has must be in every shader's `lit`. A scene without lights
 /// and environment is lit by a light at the camera.
 Picture render(const scene::Scene& scene, const Look& look, const RenderOptions& options);
 

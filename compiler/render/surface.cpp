@@ -140,6 +140,8 @@ SurfacePoint surface_point(const scene::Scene& scene, const Geometry& geometry, 
     for (std::size_t set = 0; set < 2; ++set)
         if (const auto& all = mesh.coordinates[set]; !all.empty())
             point.coordinates[set] = blend(hit, all[a], all[b], all[c]);
+    if (!mesh.colors.empty())
+        point.color = blend(hit, mesh.colors[a], mesh.colors[b], mesh.colors[c]);
     float side = 1;
     if (!mesh.tangents.empty()) {
         const auto tangent = blend(hit, mesh.tangents[a], mesh.tangents[b], mesh.tangents[c]);
@@ -172,11 +174,24 @@ Vector3 shadow_origin(const scene::Scene& scene, const Geometry& geometry, const
 
 Vector3 emission(const scene::Scene& scene, const SurfacePoint& point)
 {
-    const scene::Value& value = scene.materials[point.material].emissive;
-    if (value.low.size() != 3) return {};
-    const Sampled sampled{scene, value, point};
-    return {static_cast<float>(sampled[0]), static_cast<float>(sampled[1]),
-            static_cast<float>(sampled[2])};
+    const scene::Material& material = scene.materials[point.material];
+    const auto rgb = [](const Sampled& sampled) {
+        return Vector3{static_cast<float>(sampled[0]), static_cast<float>(sampled[1]),
+                       static_cast<float>(sampled[2])};
+    };
+    if (material.is_unlit) {
+        const Vector3 color = rgb({scene, material.base_color, point});
+        return {color[0] * point.color[0], color[1] * point.color[1], color[2] * point.color[2]};
+    }
+    if (material.emissive.low.size() != 3) return {};
+    return rgb({scene, material.emissive, point});
+}
+
+bool is_cut_out(const scene::Scene& scene, const SurfacePoint& point)
+{
+    const scene::Material& material = scene.materials[point.material];
+    if (material.alpha != scene::Material::Alpha::mask) return false;
+    return Sampled(scene, material.base_color, point)[3] * point.color[3] < material.alpha_cutoff;
 }
 
 // ---- values
@@ -282,7 +297,7 @@ void MaterialValues::at(const SurfacePoint& point, std::span<float> out) const
         std::clamp(Sampled(scene_, material.roughness, point)[0], limits.low, limits.high);
     const auto dielectric = dielectric_f0(point);
     for (std::size_t c = 0; c < 3; ++c) {
-        const double albedo = std::clamp(color[c], 0.0, 1.0);
+        const double albedo = std::clamp(color[c] * point.color[c], 0.0, 1.0);
         out[base_color + c] = number(albedo);
         out[diffuse_color + c] = number(albedo * (1 - metal));
         out[f0 + c] = number(dielectric[c] * (1 - metal) + albedo * metal);

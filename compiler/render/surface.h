@@ -20,7 +20,8 @@ struct SurfacePoint {
     Vector3 n{}, x{}, y{};  ///< the shading frame, normal map included; n faces the eye
     Vector3 v{};            ///< to the eye
     std::array<std::array<float, 2>, 2> coordinates{};
-    std::size_t material = 0;  ///< index into Scene::materials
+    std::array<float, 4> color{1, 1, 1, 1};  ///< of the vertices; base color times it
+    std::size_t material = 0;                ///< index into Scene::materials
 };
 
 SurfacePoint surface_point(const scene::Scene& scene, const Geometry& geometry, const Ray& ray,
@@ -32,8 +33,11 @@ SurfacePoint surface_point(const scene::Scene& scene, const Geometry& geometry, 
 Vector3 shadow_origin(const scene::Scene& scene, const Geometry& geometry, const Hit& hit,
                       const SurfacePoint& point);
 
-/// What shines by itself there, linear.
+/// What shines by itself there, linear. An unlit material does so in its base color.
 Vector3 emission(const scene::Scene& scene, const SurfacePoint& point);
+
+/// A masked material's alpha says that nothing is there.
+bool is_cut_out(const scene::Scene& scene, const SurfacePoint& point);
 
 /// Everything that a module can ask of a material, by name and component: the surface's fields as
 /// engines derive them, glTF's material read as analyze/residual/facts.h reads it, and the module's

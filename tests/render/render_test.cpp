@@ -206,6 +206,25 @@ TEST_CASE("what emits is seen, and a miss is black without a sky")
     CHECK(picture.radiance[0] == Vector3{});
 }
 
+TEST_CASE("an unlit material shows its color, a masked one what is behind its holes")
+{
+    Lambert lambert;
+    scene::Scene scene = one_square({0.25, 0.5, 0.75, 1});
+    scene.materials[0].is_unlit = true;
+    scene.materials.push_back(material_of({1, 0, 0, 0.25}));
+    scene.materials[1].is_unlit = true;
+    scene.materials[1].alpha = scene::Material::Alpha::mask;
+    scene.meshes.push_back(square());
+    scene.meshes[1].material = 1;
+    scene.instances.push_back({1, at(0, 0, 0.5)});
+    lambert.look.shader_of = {0, 0};
+    const std::size_t middle_pixel = 12 * 24 + 12;
+    CHECK(render::render(scene, lambert.look, small()).radiance[middle_pixel] ==
+          Vector3{0.25F, 0.5F, 0.75F});
+    scene.materials[1].alpha_cutoff = 0.25;
+    CHECK(render::render(scene, lambert.look, small()).radiance[middle_pixel] == Vector3{1, 0, 0});
+}
+
 TEST_CASE("without a camera everything is in the picture")
 {
     scene::Scene scene = one_square({1, 1, 1, 1});
