@@ -17,6 +17,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace lobe::cli {
 namespace {
@@ -210,9 +211,9 @@ struct Tabulate {
     {
         std::swap(subject.axes[0], subject.axes[1]);
         const auto turned = [](analyze::PlaceFunction values) -> analyze::PlaceFunction {
-            return [values = std::move(values)](std::span<const analyze::Place> places) {
+            return [values = std::move(values)](std::span<const analyze::Place> asked) {
                 std::vector<analyze::Place> back;
-                for (const analyze::Place& at : places) back.push_back({at.y, at.x});
+                for (const analyze::Place& at : asked) back.push_back({at.y, at.x});
                 return values(back);
             };
         };
