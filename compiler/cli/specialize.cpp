@@ -58,6 +58,7 @@ struct Specialize {
     std::string device;
     std::string json;
     std::string certificate;
+    std::string html;
     CacheOptions cache;
     std::size_t variants = 0;
     std::size_t points = analyze::CertificateOptions{}.points;
@@ -76,7 +77,8 @@ struct Specialize {
             return fail(terminal, fmt::format("--epsilon takes a share above 0, such as 0.1% or "
                                               "0.001; got `{}`",
                                               epsilon_text));
-        std::vector<Output> outputs{{"--json", json}, {"--certificate", certificate}};
+        std::vector<Output> outputs{
+            {"--json", json}, {"--certificate", certificate}, {"--html", html}};
         if (const std::string why = conflict(outputs); !why.empty()) return fail(terminal, why);
 
         const ModelFile file = load_model(terminal, input, model);
@@ -183,6 +185,7 @@ struct Specialize {
         };
         outputs[0].text = dump(report::to_json(result));
         outputs[1].text = dump(report::certificates_to_json(result));
+        outputs[2].text = report::to_page(report::to_document(result));
         if (!result.ok()) {
             fmt::print(stderr, "error: the certificate does not hold; no shader was written\n");
             return cli::write(terminal, outputs, findings);
@@ -264,6 +267,7 @@ void add_specialize(CLI::App& app, const Terminal& terminal, int& status)
                         "Write what was proved and checked as JSON; `-` is standard output");
     command->add_option("--json", specialize->json,
                         "Write everything as JSON; `-` is standard output");
+    command->add_option("--html", specialize->html, "Write a self-contained page; `-` likewise");
     command->add_option("-j,--jobs", specialize->jobs, "Threads (default: one per core)");
     add_cache_options(*command, specialize->cache);
     command->footer(

@@ -107,8 +107,9 @@ std::vector<std::string> remarks(const Specialization& of, std::size_t index)
         out.push_back(fmt::format("Off, and not in the code: {}.", fmt::join(off, ", ")));
     std::vector<std::string> fixed;
     for (const auto& [name, value] : variant.called.constants)
-        if (std::ranges::count(variant.residual.fixed, name) > 0 &&
-            std::ranges::count(variant.residual.absent, name) == 0)
+        if (!of.facts.defaults.contains(name) ||
+            (std::ranges::count(variant.residual.fixed, name) > 0 &&
+             std::ranges::count(variant.residual.absent, name) == 0))
             fixed.push_back(fmt::format("{} = {}", name, listed(value)));
     if (!fixed.empty()) out.push_back(fmt::format("Constants: {}.", fmt::join(fixed, ", ")));
     if (index < of.certificates.size())

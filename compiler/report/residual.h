@@ -1,9 +1,10 @@
 // What a scene was specialized to: its shaders, what they cost, what they leave out and why, and
-// what was checked of them. Tables, JSON, and lines for the banner of what is emitted.
+// what was checked of them. Tables, JSON, a page, and lines for the banner of what is emitted.
 #pragma once
 
 #include "analyze/residual/certificate.h"
 #include "analyze/residual/variants.h"
+#include "report/document.h"
 #include "report/table.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -37,6 +38,7 @@ Table frontier_table(const Specialization& of);
 Table certificate_table(const Specialization& of);
 
 std::string to_text(const Specialization& of, const Look& look);
+Document to_document(const Specialization& of);
 nlohmann::ordered_json to_json(const Specialization& of);
 /// What was proved and what was checked, alone.
 nlohmann::ordered_json certificates_to_json(const Specialization& of);

@@ -42,7 +42,10 @@ public:
 
     FoundFacts run()
     {
-        const std::vector<std::size_t> shown = scene_.shown_materials();
+        std::vector<std::size_t> shown = scene_.shown_materials();
+        // The format's default material stands in no file; where nothing shows it there is none.
+        if (scene_.instances.empty())
+            std::erase_if(shown, [this](std::size_t m) { return is_default(m); });
         const std::vector<double> areas = scene_.coverage();
         double all = 0;
         for (const std::size_t index : shown) all += areas[index];
@@ -55,8 +58,8 @@ public:
         }
         if (facts_.materials.empty() && errors_.empty())
             errors_.push_back({true, "", "no material to shade",
-                               shown.empty() ? "a primitive that has no material shows the "
-                                               "format's default one; this scene has no primitive"
+                               shown.empty() ? "the scene has no materials, and no primitive "
+                                               "that shows the format's default one"
                                              : "all of them are KHR_materials_unlit"});
         FoundFacts out;
         const bool ok = errors_.empty();
@@ -75,12 +78,19 @@ public:
     }
 
 private:
+    bool is_default(std::size_t material) const
+    {
+        return scene_.materials[material].pointer.empty();
+    }
+
     void add(std::size_t index, double coverage)
     {
         const scene::Material& material = scene_.materials[index];
         MaterialFacts facts;
         facts.material = index;
-        facts.name = material.name.empty() ? fmt::format("material {}", index) : material.name;
+        facts.name = !material.name.empty() ? material.name
+                     : is_default(index)    ? "default material"
+                                            : fmt::format("material {}", index);
         facts.coverage = coverage;
         facts.inputs = given_parameters(scene_, material, module_, errors_);
         RawSurface raw = raw_surface(scene_, material);
