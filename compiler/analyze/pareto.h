@@ -4,7 +4,8 @@
 //
 // each with its model error over the reals, its rounding error, and its cost on every family. A
 // point is dominated on a family where another one costs no more, errs no more, and is better in
-// one of the two. For a model the error is end to end, on radiance.
+// one of the two; what a build cannot emit dominates only its like. For a model the error is end to
+// end, on radiance.
 #pragma once
 
 #include "analyze/cost/cost.h"
@@ -24,7 +25,8 @@
 
 namespace lobe::analyze {
 
-/// Where a candidate stands on a family.
+/// Where a candidate stands on a family. What cannot be emitted is held against everything, what
+/// can only against its like.
 struct Standing {
     bool on_frontier = false;
     std::optional<std::size_t> dominated_by;  ///< another candidate of the same list

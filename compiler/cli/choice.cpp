@@ -67,7 +67,34 @@ public:
                             : fmt::format("the fewest cycles possible are {:.1f}", cycles);
     }
 
+    /// What each model would take if it were chosen for alone: the fewest cycles of all together,
+    /// or the least of the worst error. No joint choice has less.
+    double alone() const
+    {
+        double cycles = 0;
+        double error = 0;
+        for (const Trade& trade : trades_) {
+            double fewest = infinity;
+            double least = infinity;
+            for (const Candidate& candidate : trade.candidates) {
+                if (!fits(trade, candidate)) continue;
+                fewest = std::min(fewest, cycles_of(trade, candidate));
+                least = std::min(least, trade.error_of(candidate));
+            }
+            cycles += fewest;
+            error = std::max(error, least);
+        }
+        return limit_.error ? cycles : error;
+    }
+
 private:
+    bool fits(const Trade& trade, const Candidate& candidate) const
+    {
+        return is_usable(trade, candidate) && std::isfinite(trade.error_of(candidate)) &&
+               trade.error_of(candidate) <= limit_.error.value_or(infinity) &&
+               cycles_of(trade, candidate) <= limit_.cycles.value_or(infinity);
+    }
+
     bool is_usable(const Trade& trade, const Candidate& candidate) const
     {
         return candidate.selectable && !trade.cost_of(candidate).families.empty();
@@ -110,18 +137,14 @@ private:
         const Trade& trade = trades_[next];
         for (std::size_t i = 0; i < trade.candidates.size(); ++i) {
             const Candidate& candidate = trade.candidates[i];
-            if (!is_usable(trade, candidate)) continue;
-            const double its_error = trade.error_of(candidate);
-            const double its_cycles = cycles_of(trade, candidate);
-            if (!std::isfinite(its_error) || its_error > limit_.error.value_or(infinity) ||
-                its_cycles > limit_.cycles.value_or(infinity))
-                continue;
-            bool fits = true;
-            for (std::size_t k = 0; k < next && fits; ++k) fits = agree(k, picks[k], next, i);
-            if (!fits) continue;
+            if (!fits(trade, candidate)) continue;
+            bool agrees = true;
+            for (std::size_t k = 0; k < next && agrees; ++k) agrees = agree(k, picks[k], next, i);
+            if (!agrees) continue;
             Picks more = picks;
             more.push_back(i);
-            extend(more, std::max(error, its_error), cycles + its_cycles);
+            extend(more, std::max(error, trade.error_of(candidate)),
+                   cycles + cycles_of(trade, candidate));
         }
     }
 
@@ -181,6 +204,18 @@ void promote(ir::Module& module, const std::string& term_name, const std::string
     definition.form_name = "definition";
 }
 
+/// How far a joint choice may be from the best one; empty where it is the best.
+std::string apart_from(double alone, double joint, const Limit& limit)
+{
+    if (!(joint > alone)) return {};
+    return limit.error ? fmt::format("The models share their terms: chosen for one by one they "
+                                     "would take {:.1f} issue cycles, not {:.1f}.",
+                                     alone, joint)
+                       : fmt::format("The models share their terms: chosen for one by one they "
+                                     "would be within {}, not {}.",
+                                     percent_of(alone), percent_of(joint));
+}
+
 Chosen choose_for_models(const analyze::Pareto& pareto, const Limit& limit)
 {
     Picking picking{pareto, limit};
@@ -190,13 +225,22 @@ Chosen choose_for_models(const analyze::Pareto& pareto, const Limit& limit)
     Spelling spelling{};
     Chosen out;
     std::vector<std::string> remarks;
+    double cycles = 0;
+    double error = 0;
     for (std::size_t k = 0; k < picks->size(); ++k) {
         const Trade& trade = pareto.trades[k];
         const Candidate& candidate = trade.candidates[(*picks)[k]];
         choice.insert(candidate.choice.begin(), candidate.choice.end());
         spelling = candidate.spelling;
+        cycles += analyze::issue_on(trade.cost_of(candidate), limit.family);
+        error = std::max(error, trade.error_of(candidate));
         remarks.push_back(line_of(trade, candidate, limit.family));
         out.summary += remarks.back() + "\n";
+    }
+    if (const std::string apart = apart_from(picking.alone(), limit.error ? cycles : error, limit);
+        !apart.empty()) {
+        remarks.push_back(apart);
+        out.summary += apart + "\n";
     }
     ir::Module module = optimize::choose(pareto.checked, choice);
     hide_found(module, pareto, choice);

@@ -93,6 +93,7 @@ struct Cost {
 
         report::CostReport report;
         const analyze::Costs costs = measure(terminal, program.sources, plan);
+        if (!device.empty() && !costs.no_device.empty()) return fail(terminal, costs.no_device);
         report.rows = plan.rows;
         for (std::size_t i = 0; i < costs.costs.size(); ++i) report.rows[i].cost = costs.costs[i];
         report.driver = costs.driver;

@@ -100,11 +100,24 @@ struct Pareto {
                const std::vector<analyze::Pareto>& results, std::vector<Output>& outputs) const
     {
         const analyze::Family on = *analyze::find_family(family);
+        if (!svg.empty()) {
+            const std::vector<const analyze::Trade*> trades = drawn(results);
+            if (trades.size() != 1)
+                return fail(terminal, fmt::format("--svg draws one trade, not {}: name it with "
+                                                  "--model or --term",
+                                                  trades.size()));
+            if (const std::string& why = results.front().about.no_statistics; !why.empty())
+                return fail(terminal, "--svg has no costs to draw: " + why);
+            outputs[2].text = report::trade_svg(*trades.front());
+        }
+        std::string measured;
+        for (const std::string& setting : settings) measured += " --set " + setting;
+        if (points != analyze::ParetoOptions{}.points)
+            measured += fmt::format(" --points {}", points);
         if (!is_piped(outputs) && !terminal.quiet) {
             const report::Look look{terminal.color_on_stdout(), terminal.width()};
-            std::string given;
+            std::string given = measured;
             if (on != default_family) given += " --on " + family;
-            for (const std::string& setting : settings) given += " --set " + setting;
             if (all) given += " --all";
             for (std::size_t i = 0; i < results.size(); ++i) {
                 fmt::print("{}", report::to_text(results[i], on, all, program.modules[i].path,
@@ -120,17 +133,9 @@ struct Pareto {
         page.title = "Error against cost";
         for (std::size_t i = 0; i < results.size(); ++i)
             for (report::Section& section :
-                 report::pareto_sections(results[i], program.modules[i].path))
+                 report::pareto_sections(results[i], program.modules[i].path, measured))
                 page.sections.push_back(std::move(section));
         outputs[1].text = report::to_page(page);
-        if (!svg.empty()) {
-            const std::vector<const analyze::Trade*> trades = drawn(results);
-            if (trades.size() != 1)
-                return fail(terminal, fmt::format("--svg draws one trade, not {}: name it with "
-                                                  "--model or --term",
-                                                  trades.size()));
-            outputs[2].text = report::trade_svg(*trades.front());
-        }
         return write(terminal, outputs, success);
     }
 
@@ -175,9 +180,10 @@ void add_pareto(CLI::App& app, const Terminal& terminal, int& status)
     add_cache_options(*command, pareto->cache);
     command->footer(
         "model: what the form differs from the definition over the reals; rounding: what the\n"
-        "number format adds; worst: both together, relative to the exact value or to a grey card\n"
-        "where that is brighter; codes: the same on an 8-bit display. A model is judged by what\n"
-        "99 % of its points stay below, a term by its worst.\n"
+        "number format adds, and a proved bound of it where arguments and fields are exact;\n"
+        "worst: model and rounding together, relative to the exact value or to a grey card where\n"
+        "that is brighter; codes: the same on an 8-bit display. A model is judged by what 99 % of\n"
+        "its points stay below, a term by its worst. docs/pareto.md says more.\n"
         "Example: lobec pareto models/callisto.lobe --model callisto --on rdna3");
     command->callback([pareto, &terminal, &status] { status = pareto->run(terminal); });
 }

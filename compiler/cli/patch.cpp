@@ -3,7 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/engine_tree.h"
-#include "cli/files.h"
+#include "cli/outputs.h"
 #include "cli/program.h"
 #include "emit/engine_values.h"
 #include "emit/template.h"
@@ -98,8 +98,8 @@ struct Patch {
     {
         if (apply + revert + check + !output.empty() > 1)
             return fail(terminal, "--apply, --revert, --check and -o exclude each other");
-        if (output == "-" && json == "-")
-            return fail(terminal, "only one of -o and --json can be standard output");
+        if (const std::string why = conflict({{"-o", output}, {"--json", json}}); !why.empty())
+            return fail(terminal, why);
         if (!std::filesystem::is_directory(tree))
             return fail(terminal, fmt::format("{} is no folder", tree));
         if (is_interrupted(tree)) {
@@ -196,16 +196,15 @@ struct Patch {
         if (!revert && !skip_shaders && result.plan.obstacles.empty())
             result.shaders = check_shaders(files, list, wanted, result.plan.changes);
 
-        const int status = carry_out(terminal, result);
-        if (!json.empty() && status != broken) {
-            const std::string text = report::patch_json(result);
-            if (json == "-") {
-                fmt::print("{}", text);
-            } else if (const Written written = write_files({{json, text}}); !written.why.empty()) {
-                return fail(terminal, written.why);
-            }
-        }
-        return status;
+        std::vector<Output> outputs{{"--json", json}};
+        const int status = carry_out(terminal, result, outputs);
+        if (status == broken) return broken;
+        outputs.front().text = report::patch_json(result);
+        const int end = write(terminal, outputs, status);
+        if (end != broken && result.ok() && !terminal.quiet)
+            fmt::print(stderr, "{}",
+                       report::patch_summary(result, {terminal.color_on_stderr(), 0}));
+        return end;
     }
 
     static std::vector<analyze::EngineShaderVerdict>
@@ -223,7 +222,9 @@ struct Patch {
              .node_inputs = wanted.node_inputs});
     }
 
-    int carry_out(const Terminal& terminal, report::PatchReport& result) const
+    /// Changes the tree, or adds the diff to what is written.
+    int carry_out(const Terminal& terminal, report::PatchReport& result,
+                  std::vector<Output>& outputs) const
     {
         const report::Look look{terminal.color_on_stderr(), 0};
         fmt::print(stderr, "{}{}", report::patch_obstacles(result, look),
@@ -235,15 +236,10 @@ struct Patch {
                 return fail(terminal, is_interrupted(tree) ? why : why + "; the tree is as it was");
             result.applied = true;
         } else if (!check) {
-            const std::string diff = engine::unified_diff(changes);
-            if (output.empty() || output == "-") {
-                if (json != "-") fmt::print("{}", diff);
-            } else if (const Written written = write_files({{output, diff}});
-                       !written.why.empty()) {
-                return fail(terminal, written.why);
-            }
+            // Standard output is the diff's, but for a JSON that was sent there.
+            const bool to_stdout = output.empty() && json != "-";
+            outputs.push_back({"-o", to_stdout ? "-" : output, engine::unified_diff(changes)});
         }
-        if (!terminal.quiet) fmt::print(stderr, "{}", report::patch_summary(result, look));
         return check && !changes.empty() ? findings : success;
     }
 };

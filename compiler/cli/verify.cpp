@@ -4,7 +4,7 @@
 
 #include "analyze/agreement/kill.h"
 #include "cli/commands.h"
-#include "cli/files.h"
+#include "cli/outputs.h"
 #include "cli/program.h"
 #include "lobe/lobe.h"
 #include "report/verification.h"
@@ -34,17 +34,19 @@ struct Verify {
 
     int run(const Terminal& terminal) const
     {
+        std::vector<Output> outputs{{"--json", json}, {"--junit", junit}, {"--html", html}};
+        if (const std::string why = conflict(outputs); !why.empty()) return fail(terminal, why);
         const Program program = load(terminal, inputs);
         print(terminal, program.diagnostics, program.sources);
         if (program.status != success) return program.status;
         std::vector<ir::Module> modules;
         for (const ir::Module& module : program.modules) modules.push_back(middle(module));
         return mutants > 0 ? kill(terminal, program.sources, modules)
-                           : verify(terminal, program.sources, modules);
+                           : verify(terminal, program.sources, modules, outputs);
     }
 
     int verify(const Terminal& terminal, const Sources& sources,
-               const std::vector<ir::Module>& modules) const
+               const std::vector<ir::Module>& modules, std::vector<Output>& outputs) const
     {
         std::vector<analyze::Verification> verifications;
         Diagnostics complaints;
@@ -77,6 +79,17 @@ struct Verify {
                                       "; --judges-only checks without executing");
 
         print(terminal, complaints, sources);
+        outputs[0].text = report::to_json(verifications, times);
+        outputs[1].text = report::to_junit(verifications, times);
+        outputs[2].text = report::to_page(verifications, times);
+        const int status = report::totals(verifications).ok() ? success : findings;
+        if (!is_piped(outputs)) show(terminal, verifications);
+        return write(terminal, outputs, status);
+    }
+
+    void show(const Terminal& terminal,
+              const std::vector<analyze::Verification>& verifications) const
+    {
         const report::Look look{terminal.color_on_stdout(), terminal.width()};
         if (!terminal.quiet) {
             fmt::print("{}\n", report::render(report::verification_table(verifications), look));
@@ -87,14 +100,6 @@ struct Verify {
         if (const std::string found = report::findings(verifications, look); !found.empty())
             fmt::print("{}\n", found);
         if (!terminal.quiet) fmt::print("{}", report::summary(verifications, look, true));
-
-        std::vector<OutputFile> files;
-        if (!json.empty()) files.push_back({json, report::to_json(verifications, times)});
-        if (!junit.empty()) files.push_back({junit, report::to_junit(verifications, times)});
-        if (!html.empty()) files.push_back({html, report::to_page(verifications, times)});
-        const Written written = write_files(files);
-        if (!written.why.empty()) return fail(terminal, written.why);
-        return report::totals(verifications).ok() ? success : findings;
     }
 
     int kill(const Terminal& terminal, const Sources& sources,
@@ -190,9 +195,10 @@ void add_verify(CLI::App& app, const Terminal& terminal, int& status)
         ->check(CLI::Range(64, 1 << 24))
         ->capture_default_str();
     command->add_option("-j,--jobs", verify->jobs, "Threads (default: one per core)");
-    command->add_option("--json", verify->json, "Write the results as JSON");
-    command->add_option("--junit", verify->junit, "Write the results as JUnit XML");
-    command->add_option("--html", verify->html, "Write the results as a self-contained page");
+    command->add_option("--json", verify->json,
+                        "Write the results as JSON; `-` is standard output");
+    command->add_option("--junit", verify->junit, "Write the results as JUnit XML; `-` likewise");
+    command->add_option("--html", verify->html, "Write a self-contained page; `-` likewise");
     command->add_flag("--times", verify->times, "Put measured times into the written files");
     command->add_flag("--judges-only", verify->judges_only, "Validate, but execute nothing");
     command->add_option("--mutants", verify->mutants,

@@ -42,7 +42,7 @@ std::string standing_of(const Trade& trade, const Candidate& candidate, Family f
     const Standing& standing = candidate.standing.at(family);
     std::string text;
     if (standing.on_frontier)
-        text = "frontier";
+        text = candidate.selectable ? "frontier" : "beyond the frontier";
     else if (standing.dominated_by)
         text = fmt::format("dominated by {}: {}", *standing.dominated_by + 1,
                            describe(trade.candidates[*standing.dominated_by]));

@@ -79,7 +79,8 @@ Table candidate_table(const Trade& trade)
         if (candidate.standing.contains(judged_on)) {
             const analyze::Standing& at = candidate.standing.at(judged_on);
             if (at.on_frontier)
-                standing = "frontier";
+                standing =
+                    candidate.selectable ? "frontier" : "beyond the frontier; " + candidate.note;
             else if (at.dominated_by)
                 standing = fmt::format("dominated by {}", *at.dominated_by + 1);
         }
@@ -89,7 +90,7 @@ Table candidate_table(const Trade& trade)
     return table;
 }
 
-Section section_of(const Trade& trade, const std::string& path)
+Section section_of(const Trade& trade, const std::string& path, const std::string& options)
 {
     Section out;
     out.level = 3;
@@ -105,8 +106,8 @@ Section section_of(const Trade& trade, const std::string& path)
          Style::faint});
     if (trade.quantization)
         out.paragraphs.push_back(
-            {fmt::format("To any of these errors {}, at {}.", words_of(*trade.quantization),
-                         trade.quantization->at),
+            {fmt::format("To any of these errors {}; `lobec pack` shows where.",
+                         words_of(*trade.quantization)),
              Style::faint});
     if (!trade.proofs.empty())
         out.paragraphs.push_back({words_of(trade.proofs) + ".", Style::faint});
@@ -120,28 +121,28 @@ Section section_of(const Trade& trade, const std::string& path)
                          table.rows.size(), trade.candidates.size()),
              Style::faint});
     out.tables.push_back(std::move(table));
-    out.command = fmt::format("lobec pareto {} --{} {}", path, trade.whole_model ? "model" : "term",
-                              trade.name);
+    out.command = fmt::format("lobec pareto {} --{} {}{}", path,
+                              trade.whole_model ? "model" : "term", trade.name, options);
     return out;
 }
 
 }  // namespace
 
-std::vector<Section> pareto_sections(const analyze::Pareto& pareto, const std::string& path)
+std::vector<Section> pareto_sections(const analyze::Pareto& pareto, const std::string& path,
+                                     const std::string& options)
 {
     std::vector<Section> out;
     Section head;
     head.title = fmt::format("Error against cost: {}", pareto.module);
     head.paragraphs.push_back(
         {pareto.about.no_statistics.empty()
-             ? fmt::format("Costs by {}, without the hardware; {} trades.", pareto.about.driver,
-                           pareto.trades.size())
+             ? fmt::format("Costs by {}, without the hardware.", pareto.about.driver)
              : fmt::format("No costs per family: {}.", pareto.about.no_statistics),
          Style::faint});
     out.push_back(std::move(head));
     for (const bool whole_model : {true, false})
         for (const Trade& trade : pareto.trades)
-            if (trade.whole_model == whole_model) out.push_back(section_of(trade, path));
+            if (trade.whole_model == whole_model) out.push_back(section_of(trade, path, options));
     return out;
 }
 

@@ -19,7 +19,9 @@ std::string trade_picture(const analyze::Trade& trade);
 std::string trade_svg(const analyze::Trade& trade);
 
 /// One section per trade: picture, a row per candidate that is on a frontier or stands for
-/// something (the definition, the naive spelling), and the command that prints it again.
-std::vector<Section> pareto_sections(const analyze::Pareto& pareto, const std::string& path);
+/// something (the definition, the naive spelling), and the command that prints it again: of the
+/// file `path`, with `options` that change what is measured, ` --set gain=1`.
+std::vector<Section> pareto_sections(const analyze::Pareto& pareto, const std::string& path,
+                                     const std::string& options = {});
 
 }  // namespace lobe::report

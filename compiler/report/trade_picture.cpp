@@ -20,10 +20,11 @@ using analyze::Family;
 using analyze::Trade;
 
 constexpr double panel_width = 250, panel_height = 190;
-constexpr double left = 62, top = 30, between = 46, below = 62, right = 14;
+constexpr double left = 62, top = 42, between = 46, below = 62, right = 14;
 constexpr int columns = 3;
 
-/// Decades; what errs less than the lowest stands on it, as what does not err at all does.
+/// Decades; what errs less than the lowest stands on it, as what does not err at all does, and what
+/// errs more than the highest stands on that.
 struct ErrorAxis {
     int low = 0;
     int high = 0;
@@ -49,6 +50,7 @@ bool is_on_frontier(const Candidate& candidate, Family family)
     return found != candidate.standing.end() && found->second.on_frontier;
 }
 
+/// Of the frontiers: what is worse than all of them needs no room.
 ErrorAxis axis_of(const Trade& trade)
 {
     constexpr int most = 10;  // decades; float's own rounding is seven below 1
@@ -56,6 +58,10 @@ ErrorAxis axis_of(const Trade& trade)
     for (const Candidate& candidate : trade.candidates) {
         const double error = trade.error_of(candidate);
         if (!std::isfinite(error) || error <= 0) continue;
+        if (!candidate.selectable || std::ranges::none_of(candidate.standing, [](const auto& at) {
+                return at.second.on_frontier;
+            }))
+            continue;
         axis.low = std::min(axis.low, static_cast<int>(std::floor(std::log10(error))));
         axis.high = std::max(axis.high, static_cast<int>(std::ceil(std::log10(error))));
     }
@@ -133,24 +139,30 @@ public:
     Panel(const Trade& trade, Family family, const ErrorAxis& axis, double x, double y)
         : trade_{trade}, family_{family}, axis_{axis}, x_{x}, y_{y}
     {
+        least_ = std::numeric_limits<double>::infinity();
         for (const Candidate& candidate : trade.candidates)
-            if (const double cost = cost_of(trade, candidate, family); std::isfinite(cost))
+            if (const double cost = cost_of(trade, candidate, family); std::isfinite(cost)) {
                 most_ = std::max(most_, cost);
-        step_ = step_of(std::max(most_, 1.0));
-        most_ = step_ * std::ceil(std::max(most_, 1.0) / step_);
+                least_ = std::min(least_, cost);
+            }
+        // From 0, unless half of the axis were empty.
+        if (least_ < most_ / 2) least_ = 0;
+        step_ = step_of(std::max(most_ - least_, 1.0));
+        least_ = step_ * std::floor(least_ / step_);
+        most_ = step_ * std::ceil(std::max(most_, least_ + 1.0) / step_);
     }
 
     std::string draw() const
     {
         std::string out = fmt::format("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-                                      x_, y_ - 10, escaped_xml(analyze::title(family_)));
+                                      x_, y_ - 22, escaped_xml(analyze::title(family_)));
         for (int decade = axis_.low; decade <= axis_.high; ++decade)
             out += fmt::format("<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" "
                                "y2=\"{2:.1f}\"/><text class=\"n\" x=\"{3:.1f}\" y=\"{4:.1f}\">"
                                "{5}</text>\n",
                                x_, x_ + panel_width, row(std::pow(10, decade)), x_ - 6,
                                row(std::pow(10, decade)) + 4, percent_of(decade));
-        for (double cycles = 0; cycles <= most_; cycles += step_)
+        for (double cycles = least_; cycles <= most_; cycles += step_)
             out += fmt::format("<text class=\"m\" x=\"{:.1f}\" y=\"{:.1f}\">{:.0f}</text>\n",
                                column(cycles), y_ + panel_height + 16, cycles);
         out += fmt::format("<text class=\"m\" x=\"{:.1f}\" y=\"{:.1f}\">issue cycles</text>\n",
@@ -167,14 +179,19 @@ private:
         return fmt::format("1e{} %", percent);
     }
 
-    double column(double cycles) const { return x_ + panel_width * cycles / most_; }
+    double column(double cycles) const
+    {
+        return x_ + panel_width * (cycles - least_) / (most_ - least_);
+    }
     double row(double error) const { return y_ + panel_height * (1 - axis_.height(error)); }
 
+    /// Of what a build can emit, cheapest first.
     std::vector<std::size_t> frontier() const
     {
         std::vector<std::size_t> out;
         for (std::size_t i = 0; i < trade_.candidates.size(); ++i)
-            if (is_on_frontier(trade_.candidates[i], family_)) out.push_back(i);
+            if (trade_.candidates[i].selectable && is_on_frontier(trade_.candidates[i], family_))
+                out.push_back(i);
         std::ranges::stable_sort(out, {}, [this](std::size_t i) {
             return cost_of(trade_, trade_.candidates[i], family_);
         });
@@ -241,11 +258,12 @@ private:
     ErrorAxis axis_;
     double x_;
     double y_;
+    double least_ = 0;
     double most_ = 0;
     double step_ = 1;
 };
 
-std::string legend(double x, double y)
+std::string legend(const Trade& trade, double x, double y)
 {
     struct Entry {
         std::string_view kind;
@@ -254,6 +272,13 @@ std::string legend(double x, double y)
     };
     constexpr analyze::Format circle = analyze::Format::float32;
     std::string out;
+    for (const std::string& words :
+         {fmt::format("error: {}", trade.whole_model ? "99 % of points stay below" : "the worst"),
+          fmt::format("cost: issue cycles{}", trade.from_vectors ? " from vectors" : "")}) {
+        out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x - 4, y, words);
+        y += 16;
+    }
+    y += 10;
     for (const Entry& entry : {Entry{"definition", circle, "the definition, spelled each way"},
                                Entry{"written", circle, "with forms that people wrote"},
                                Entry{"found", circle, "with forms the compiler found"},
@@ -295,7 +320,7 @@ Picture draw(const Trade& trade)
         out.body += Panel{trade, family, axis, x, y}.draw();
     }
     const auto [x, y] = place(panels);
-    out.body += legend(x, y + 10);
+    out.body += legend(trade, x, y + 4);
     out.width = columns * (left + panel_width + right);
     out.height = y + panel_height + below;
     return out;

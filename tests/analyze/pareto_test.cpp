@@ -1,5 +1,6 @@
 // Errors are what calculus and the number formats say they are, nothing on a frontier is missed,
 // and what dominates what is told truly.
+#include "analyze/trade/text.h"
 #include "analyze/trade/trade.h"
 #include "base/render.h"
 #include "compile.h"
@@ -50,8 +51,7 @@ double cycles_of(const evaluate::Tape& tape)
 {
     double sum = 0;
     for (const evaluate::Instruction& step : tape.code) switch (step.op) {
-        case evaluate::TapeOp::power:
-        case evaluate::TapeOp::guarded_power: sum += 9; break;
+        case evaluate::TapeOp::power: sum += 9; break;
         case evaluate::TapeOp::divide:
         case evaluate::TapeOp::exp2:
         case evaluate::TapeOp::square_root: sum += 4; break;
@@ -173,6 +173,56 @@ TEST_CASE("rounding is that of the number format")
     CHECK(find(trade, "f: exact; half").total.scaled == Approx(0x1p-11).epsilon(0.01));
 }
 
+TEST_CASE("what is proved of rounding holds for what was observed, and is not far from it")
+{
+    const Checked checked = checked_text("/// X.\nterm f(x: unit) -> float = x^2 + 0.09\n"
+                                         "  /// Off.\n  form off = x^2\n");
+    const Trade trade = of_term(*checked.module, "f");
+    for (const std::string name : {"definition", "f: off"}) {
+        CAPTURE(name);
+        const Candidate& ways = find(trade, name);
+        REQUIRE(ways.proved);
+        // Its inputs are arguments, as the proof's are: the two measure the same.
+        CHECK(ways.rounding.scaled <= ways.proved->bound);
+        CHECK(ways.proved->observed <= ways.proved->bound);
+        // A square and a sum: at most two halves of an ulp, and a proof may stop at 4 times that.
+        CHECK(ways.proved->bound <= 4 * 2 * half_ulp);
+        CHECK(ways.proved->any_device >= ways.proved->bound);
+        CHECK(ways.proved->over.empty());
+        const Candidate& half = find(trade, name + "; half");
+        REQUIRE(half.proved);
+        CHECK(half.proved->bound <= 4 * 2 * 0x1p-11);
+        CHECK(find(trade, name + "; packed half").proved->bound == half.proved->bound);
+    }
+    // It survives being kept.
+    const std::string text = to_text(trade);
+    const auto again = analyze::read_trade(text);
+    REQUIRE(again);
+    CHECK(to_text(*again) == text);
+    CHECK(find(*again, "f: off; half").proved->bound == find(trade, "f: off; half").proved->bound);
+    // A proof takes time that a build does not need.
+    analyze::ParetoOptions options = few_points();
+    options.proofs = false;
+    const Trade without =
+        analyze::trade(analyze::TradeSubject::of_term(*checked.module, *checked.module->find("f")),
+                       {}, options, counted, {});
+    CHECK_FALSE(find(without, "definition").proved);
+}
+
+TEST_CASE("half is proved where it is finite")
+{
+    const Checked checked =
+        checked_text("/// X.\nterm f(x: float in [0.001, 1]) -> float = 1 / x^2\n"
+                     "  /// Off.\n  form off = 1 / x\n");
+    const Trade trade = of_term(*checked.module, "f");
+    // 10^6 is no half; 1 / x is at most 1,000.
+    REQUIRE(find(trade, "definition; half").proved);
+    CHECK_THAT(find(trade, "definition; half").proved->over, Catch::StartsWith("x in ["));
+    CHECK(std::isfinite(find(trade, "definition; half").proved->bound));
+    CHECK(find(trade, "definition").proved->over.empty());
+    CHECK(find(trade, "f: off; half").proved->over.empty());
+}
+
 TEST_CASE("the same text is one candidate")
 {
     const Checked checked = checked_text("/// X.\nterm f(x: unit) -> float = x + 0.25\n"
@@ -227,10 +277,12 @@ TEST_CASE("a table is off by its interpolation and its texels")
 TEST_CASE("what is dominated names the cheapest that does it")
 {
     Trade trade;
-    trade.candidates = {made(10, 0.1), made(5, 0.2),  made(10, 0.2), made(12, 0.3),
-                        made(5, 0.2),  made(4, 0.05), made(3, 0.5)};
+    trade.candidates = {made(10, 0.1), made(5, 0.2), made(10, 0.2), made(12, 0.3), made(5, 0.2),
+                        made(4, 0.05), made(3, 0.5), made(2, 0.01), made(11, 0.3)};
     trade.candidates[5].spelling = Spelling::naive;  // dominates nothing
     trade.candidates[6].total.not_finite = 1;        // and neither does what is not finite
+    // What cannot be emitted dominates only its like.
+    trade.candidates[7].selectable = trade.candidates[8].selectable = false;
     analyze::judge(trade);
     const auto standing = [&](std::size_t i) { return trade.candidates[i].standing.at(rdna2); };
     CHECK(standing(0).on_frontier);
@@ -241,6 +293,8 @@ TEST_CASE("what is dominated names the cheapest that does it")
     CHECK_FALSE(standing(5).on_frontier);
     CHECK_FALSE(standing(6).on_frontier);
     CHECK_FALSE(standing(6).dominated_by);
+    CHECK(standing(7).on_frontier);
+    CHECK(standing(8).dominated_by == 7);
 }
 
 TEST_CASE("limits pick the cheapest and the most accurate")

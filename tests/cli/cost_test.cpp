@@ -79,6 +79,10 @@ TEST_CASE("cost shows what one family is known for, and only what is asked")
     CHECK_THAT(outcome.out, Contains("term or model  format  issue  VALU  trans  throughput  "
                                      "latency  VGPRs  waves  SPIR-V\n"));
     CHECK_THAT(outcome.out, Contains("RDNA3 (gfx1100)"));
+    const auto families = place.json("--on rdna3,gcn4 --term weight")["rows"][0]["families"];
+    CHECK(families.size() == 2);
+    CHECK(families.contains("gcn4"));
+    CHECK(families.contains("rdna3"));
     CHECK_THAT(outcome.out, !Contains("scaled"));
 
     const auto fixed = place.json("--term scaled --set gain=1");
@@ -120,6 +124,12 @@ TEST_CASE("cost against a baseline says what changed, and fails past a limit")
     CHECK(place.cost("--baseline old.json --fail-above 30%").status == 0);
     CHECK(place.cost("--baseline old.json").status == 0);
     CHECK(place.cost("--baseline old.json --fail-above 2% --term weight").status == 0);
+    // A file of one family is about that family.
+    REQUIRE(place.cost("--on rdna2 --json one.json").status == 0);
+    const Outcome one = place.cost("--baseline one.json");
+    CHECK(one.status == 0);
+    CHECK_THAT(one.out, Contains("issue cycles on RDNA2 (navi21): 0 helped") &&
+                            !Contains("on GCN4") && !Contains("SPIR-V instructions"));
     CHECK(place.run("lobec cost small.lobe -q --baseline old.json --fail-above 2%").status == 1);
 }
 
@@ -140,6 +150,15 @@ TEST_CASE("cost says what it does not understand")
     place.write("foreign.json", "{\"rows\": []}");
     refused("--baseline foreign.json", "it is not what `lobec cost --json` writes");
     refused("--fail-above 2%", "--baseline");
+    place.write("cut.json", "{\"kind\": \"lobe cost\", \"schema\": 1, \"rows\": [{\"na");
+    refused("--baseline cut.json", "it is not what `lobec cost --json` writes");
+    place.write("damaged.json", R"({"kind": "lobe cost", "schema": 1, "driver": "radv",
+        "from_vectors": false, "rows": [{"module": "small", "name": "weight"}]})");
+    refused("--baseline damaged.json", "it is damaged");
+    refused("--baseline .", "cannot use .: ");
+    REQUIRE(place.cost("--on rdna2 --json one.json").status == 0);
+    refused("--baseline one.json --on gcn4", "it has no cycles on gcn4");
+    refused("--nanoseconds --device nowhere", "nowhere");
     REQUIRE(place.cost("--json old.json").status == 0);
     refused("--baseline old.json --fail-above much", "`much` is no share");
     refused("--baseline old.json --from-vectors", "without --from-vectors");

@@ -117,6 +117,56 @@ TEST_CASE("pareto says what it does not know")
     CHECK(scratch.run("lobec pareto missing.lobe").status == 2);
 }
 
+TEST_CASE("pareto has the error in parts, and the packing's")
+{
+    const Scratch scratch;
+    scratch.write("small.lobe", terms);
+    const Outcome outcome = scratch.run(fmt::format("{} --json out.json --html -", pareto));
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK_THAT(outcome.out, Contains(">proved</th>") && Contains("lobec pareto small.lobe"));
+    const json trade = json::parse(scratch.read("out.json"))["modules"][0]["trades"][0];
+    for (const std::string name : {"definition", "dear: cheap"}) {
+        const json way = candidate(trade, name);
+        CHECK(way["total"]["worst"] <=
+              way["model"]["worst"].get<double>() + way["rounding"]["worst"].get<double>());
+        CHECK(way["rounding"]["worst"] <= way["proved_rounding"]["bound"]);
+        CHECK(way["total"].contains("codes"));
+    }
+    CHECK_THAT(scratch.run(pareto).out, Contains("rounding") && Contains("proved"));
+}
+
+TEST_CASE("pareto writes all that is asked for, or nothing")
+{
+    const Scratch scratch;
+    scratch.write("small.lobe", model);
+    const auto refused = [&](const std::string& options, const std::string& message) {
+        const Outcome outcome = scratch.run(fmt::format("{} {}", pareto, options));
+        CAPTURE(options, outcome.err);
+        CHECK(outcome.status == 2);
+        CHECK_THAT(outcome.err, Contains(message));
+        CHECK(scratch.read("ok.json").empty());
+    };
+    refused("--json ok.json --html small.lobe/x.html", "small.lobe");
+    refused("--json - --html -", "only one of --json, --html can be standard output");
+    refused("--points 3", "--points");
+    refused("--json ok.json --term dear --model small --svg a.svg --set nothing=1", "nothing");
+    scratch.write("empty.lobe", "module empty\nparam gain: float in [0, 4] = 1 \"Gain\"\n");
+    for (const char* command : {"pareto", "cost"}) {
+        const Outcome outcome = scratch.run(fmt::format("lobec {} empty.lobe", command));
+        CAPTURE(command, outcome.err);
+        CHECK(outcome.status == 2);
+        CHECK_THAT(outcome.err, Contains("no term and no model"));
+        CHECK(outcome.out.empty());
+    }
+    const Outcome without =
+        scratch.run("VK_DRIVER_FILES=/none.json VK_ICD_FILENAMES=/none.json " +
+                    fmt::format("{} --model small --svg a.svg --json ok.json", pareto));
+    CHECK(without.status == 2);
+    CHECK_THAT(without.err, Contains("--svg has no costs to draw"));
+    CHECK(scratch.read("ok.json").empty());
+}
+
 TEST_CASE("build within an error takes the cheapest, and says so in every file")
 {
     const Scratch scratch;
@@ -175,6 +225,37 @@ TEST_CASE("build within a budget takes the most accurate, or names the nearest p
         scratch.run("lobec build small.lobe -o poor --max-error 0.0000001% --cache kept");
     CHECK(strict.status == 1);
     CHECK_THAT(strict.err, Contains("the least error possible is"));
+    CHECK_FALSE(std::filesystem::exists(scratch.path() / "poor"));
+}
+
+TEST_CASE("models of a module are chosen for together, and it says what that costs")
+{
+    const Scratch scratch;
+    // Alone, the first model would take the form, which is off by more than it is allowed to be in
+    // the second.
+    scratch.write("small.lobe", model + R"(
+/// The same term, lit more.
+model bright(g: geometry, s: surface) {
+  diffuse = (dear(g.cos_o) + dear(g.cos_o)^3) * s.diffuse_color * g.cos_i
+}
+)");
+    if (!has_costs(scratch)) return;
+    const Outcome each = scratch.run(fmt::format("{} --json out.json", pareto));
+    REQUIRE(each.status == 0);
+    double limit = 0;
+    const json all = json::parse(scratch.read("out.json"));
+    for (const json& trade : all["modules"][0]["trades"])
+        if (trade["name"] == "small") limit = candidate(trade, "dear: cheap")["error"];
+    REQUIRE(limit > 0);
+    const Outcome together = scratch.run(
+        fmt::format("lobec build small.lobe -o out --max-error {} --cache kept", limit * 1.01));
+    CAPTURE(together.out, together.err);
+    REQUIRE(together.status == 0);
+    CHECK_THAT(together.out, Contains("chosen for one by one they would take"));
+    CHECK(together.out.find("dear: cheap") == std::string::npos);
+    std::string banner = scratch.read("out/small/glsl450/small.glsl");
+    banner = banner.substr(0, banner.find("#ifndef"));
+    CHECK_THAT(banner, Contains("chosen for one by one"));
 }
 
 TEST_CASE("a term of a library takes its form's place, and its definition stays beside it")

@@ -31,12 +31,12 @@ struct RadianceWitness {
 };
 
 struct RadianceError {
-    double worst = 0;        ///< 0.02 is 2 %
-    double typical = 0;      ///< the median over the box
-    double often = 0;        ///< 95 of 100 points have less
+    double worst = 0;    ///< 0.02 is 2 %
+    double typical = 0;  ///< the median over the box
+    double often = 0;    ///< 95 of 100 points have less
+    RadianceWitness witness;
     double codes = 0;        ///< greatest difference on a display over the box, in 8-bit codes
     double often_codes = 0;  ///< 95 of 100 points have less
-    RadianceWitness witness;
 };
 
 struct PackingErrors {

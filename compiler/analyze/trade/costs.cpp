@@ -175,7 +175,7 @@ private:
             bool dominated = false;
             for (std::size_t j = 0; j < trade_.candidates.size() && !dominated; ++j)
                 dominated = measured_[j] && trade_.error_of(trade_.candidates[j]) <= error &&
-                            trade_.candidates[j].spelling != optimize::Spelling::naive &&
+                            may_dominate(trade_.candidates[j], trade_.candidates[i]) &&
                             issue(j, family) <= least;
             if (!dominated) return false;
         }
@@ -196,7 +196,8 @@ private:
                 promising = promising || std::ranges::none_of(left, [&](std::size_t j) {
                                 const double its_error = trade_.error_of(trade_.candidates[j]);
                                 const double its_cycles = estimates_[j].at(family);
-                                return its_error <= error && its_cycles <= cycles &&
+                                return may_dominate(trade_.candidates[j], trade_.candidates[i]) &&
+                                       its_error <= error && its_cycles <= cycles &&
                                        (its_error < error || its_cycles < cycles);
                             });
             }

@@ -247,6 +247,11 @@ Trade trade(const TradeSubject& subject, const FoundNames& found, const ParetoOp
     return out;
 }
 
+bool may_dominate(const Candidate& one, const Candidate& other)
+{
+    return one.spelling != Spelling::naive && (one.selectable || !other.selectable);
+}
+
 void judge(Trade& trade)
 {
     const auto stands = [&trade](const Candidate& candidate, Family family) {
@@ -264,7 +269,7 @@ void judge(Trade& trade)
             std::optional<std::size_t> best;
             for (std::size_t j = 0; j < trade.candidates.size(); ++j) {
                 const Candidate& other = trade.candidates[j];
-                if (j == i || !stands(other, family)) continue;
+                if (j == i || !may_dominate(other, one) || !stands(other, family)) continue;
                 const double its_cost = issue_on(trade.cost_of(other), family);
                 const double its_error = trade.error_of(other);
                 const bool dominates = its_cost <= cost && its_error <= error &&

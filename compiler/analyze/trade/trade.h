@@ -22,6 +22,9 @@ using FoundNames = std::set<std::pair<std::string, std::string>>;
 Trade trade(const TradeSubject& subject, const FoundNames& found, const ParetoOptions& options,
             const Measurer& measurer, const Store& store);
 
+/// What cannot be emitted takes no place from what can.
+bool may_dominate(const Candidate& one, const Candidate& other);
+
 /// Sets the standing of every candidate.
 void judge(Trade& trade);
 
