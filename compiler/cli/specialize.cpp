@@ -109,6 +109,19 @@ struct Specialize {
         return finish(terminal, result, std::move(files), outputs, phases);
     }
 
+    /// As it may be typed again, but for where results go.
+    std::string command() const
+    {
+        std::string text = fmt::format("lobec specialize {} --scene {}", emit::shown_path(input),
+                                       emit::shown_path(scene));
+        if (!model.empty()) text += " --model " + model;
+        if (variants > 0) text += fmt::format(" --variants {}", variants);
+        if (per_material) text += " --per-material";
+        if (!epsilon_text.empty()) text += " --epsilon " + epsilon_text;
+        if (!family.empty()) text += " --on " + family;
+        return text;
+    }
+
     report::Specialization specialized(const ModelFile& file, analyze::SceneFacts facts,
                                        double epsilon, const analyze::Store& store,
                                        Progress& progress, Phases& phases) const
@@ -123,6 +136,7 @@ struct Specialize {
         report::Specialization out;
         out.scene = emit::shown_path(scene);
         out.module = file.module().name;
+        out.command = command();
         out.epsilon = epsilon;
         out.family = family.empty() ? default_family : *analyze::find_family(family);
         out.facts = std::move(facts);

@@ -87,7 +87,7 @@ bool Specialization::ok() const
 std::vector<std::string> remarks(const Specialization& of, std::size_t index)
 {
     const Variant& variant = of.variants.chosen[index];
-    std::vector<std::string> out;
+    std::vector<std::string> out{fmt::format("This shader is one scene's: {}", of.command)};
     const std::string share = of.facts.materials.size() == variant.materials.size()
                                   ? "all of the picture"
                                   : fmt::format("{} of the picture", percent_of(variant.coverage));

@@ -17,6 +17,7 @@ namespace lobe::report {
 struct Specialization {
     std::string scene;  ///< its path, as it may be shown
     std::string module;
+    std::string command;  ///< that does this again
     analyze::SceneFacts facts;
     analyze::Variants variants;
     analyze::Family family{};

@@ -160,6 +160,7 @@ TEST_CASE("a scene of the base alone gives the base, certified")
     CAPTURE(outcome.out, outcome.err);
     REQUIRE(outcome.status == 0);
     const std::string shader = scratch.read("out/callisto_base/glsl450/callisto_base.glsl");
+    CHECK_THAT(shader, Contains("lobec specialize callisto.lobe --scene base_only.gltf"));
     CHECK_THAT(shader, Contains("For base_only.gltf: 3 of 3 materials, all of the picture: clay, "
                                 "plastic, copper."));
     CHECK_THAT(shader, Contains("Off, and not in the code: Diffuse Fresnel, Retroreflection"));
