@@ -101,12 +101,9 @@ Acceptance apply(const Rules& rules, TapeOp op, const Acceptance& a, const Accep
     case TapeOp::multiply: return device.multiply(a, b);
     case TapeOp::divide: return device.divide(a, b);
     case TapeOp::power: return device.power(a, b);
-    case TapeOp::guarded_power: return device.guarded_power(a, b);
     case TapeOp::normalized: return device.normalized(a, b);
-    case TapeOp::guarded_normalized: return device.guarded_normalized(a, b);
     case TapeOp::lerp: return device.lerp(a, b, c);
     case TapeOp::smoothstep: return device.smoothstep(a, b, c);
-    case TapeOp::guarded_smoothstep: return device.guarded_smoothstep(a, b, c);
     case TapeOp::select: return select(a, b, c);
     case TapeOp::sum3: return device.sum3(a, b, c);
     case TapeOp::sum4: return device.sum4({a, b, c, d});

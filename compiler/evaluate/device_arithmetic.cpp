@@ -211,22 +211,4 @@ Acceptance Device::power(const Acceptance& x, const Acceptance& y) const
     return result;
 }
 
-/// y == 0 ? 1 : (x <= 0 ? 0 : pow(x, y))
-Acceptance Device::guarded_power(const Acceptance& x, const Acceptance& y) const
-{
-    const bool undefined = x.undefined || y.undefined;
-    if (y.low == 0 && y.high == 0) return {1, 1, undefined};
-    Acceptance result{infinity, -infinity, undefined};
-    if (reaches(y, 0)) result = hull(result, one);
-    if (x.low <= 0) result = hull(result, zero);
-    if (x.high > 0) {
-        const double least = std::max(x.low, 0x1p-1074);
-        Acceptance bare = power({least, x.high, false}, y);
-        // A positive base may still be read as 0.
-        if (x.low < rules_.least_normal && y.low < 0) bare.undefined = true;
-        result = hull(result, bare);
-    }
-    return result;
-}
-
 }  // namespace lobe::evaluate

@@ -82,16 +82,6 @@ Acceptance Device::normalized(const Acceptance& x, const Acceptance& squares) co
     return result;
 }
 
-/// squares > 0 ? normalize(x) : 0
-Acceptance Device::guarded_normalized(const Acceptance& x, const Acceptance& squares) const
-{
-    const bool undefined = x.undefined || squares.undefined;
-    if (squares.high <= 0) return {0, 0, undefined};
-    if (squares.low > 0) return normalized(x, squares);
-    // A denormal sum may pass the guard and then be read as 0.
-    return {x.low < 0 ? -longest() : 0, x.high > 0 ? longest() : 0, true};
-}
-
 /// mix: x * (1 - t) + y * t, or x + (y - x) * t.
 Acceptance Device::lerp(const Acceptance& a, const Acceptance& b, const Acceptance& t) const
 {
@@ -135,27 +125,6 @@ Acceptance Device::smoothstep(const Acceptance& edge0, const Acceptance& edge1,
     result.high = std::min(result.high, round_up(smooth(t.high) * (1 + error)));
     result = flushed(result);
     if (edge1.low <= edge0.high) result.undefined = true;
-    return result;
-}
-
-/// edge1 <= edge0 ? (x > edge0 ? 1 : 0) : smoothstep(edge0, edge1, x)
-Acceptance Device::guarded_smoothstep(const Acceptance& edge0, const Acceptance& edge1,
-                                      const Acceptance& x) const
-{
-    const bool undefined = edge0.undefined || edge1.undefined || x.undefined;
-    Acceptance result{infinity, -infinity, undefined};
-    if (edge1.low <= edge0.high) {
-        if (x.low <= edge0.high) result = hull(result, zero);
-        if (x.high > edge0.low) result = hull(result, one);
-    }
-    if (edge1.high > edge0.low) {
-        Acceptance bare = smoothstep(edge0, edge1, x);
-        // Taken only where the edges differ; then only a denormal difference is undefined.
-        const Acceptance width = subtract(edge1, edge0);
-        if (width.high >= rules_.least_normal && !undefined)
-            bare.undefined = width.high > rules_.largest_divisor;
-        result = hull(result, bare);
-    }
     return result;
 }
 

@@ -44,7 +44,6 @@ public:
     Interval logarithm_reads(const Acceptance& x) const;
     Acceptance logarithm(const Acceptance& x, double (*function)(double)) const;
     Acceptance power(const Acceptance& x, const Acceptance& y) const;
-    Acceptance guarded_power(const Acceptance& x, const Acceptance& y) const;
     Acceptance wave(const Acceptance& x, Interval exact) const;
     Acceptance tangent(const Acceptance& x) const;
     Acceptance atan2(const Acceptance& y, const Acceptance& x) const;
@@ -52,12 +51,9 @@ public:
     Acceptance arc_cosine(const Acceptance& x) const;
     Acceptance arc_tangent(const Acceptance& x) const;
     Acceptance normalized(const Acceptance& x, const Acceptance& squares) const;
-    Acceptance guarded_normalized(const Acceptance& x, const Acceptance& squares) const;
     Acceptance lerp(const Acceptance& a, const Acceptance& b, const Acceptance& t) const;
     Acceptance smoothstep(const Acceptance& edge0, const Acceptance& edge1,
                           const Acceptance& x) const;
-    Acceptance guarded_smoothstep(const Acceptance& edge0, const Acceptance& edge1,
-                                  const Acceptance& x) const;
     Acceptance sum3(const Acceptance& a, const Acceptance& b, const Acceptance& c) const;
     Acceptance sum4(const std::array<Acceptance, 4>& terms) const;
 

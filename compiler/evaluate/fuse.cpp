@@ -231,7 +231,7 @@ void Fuser::write(Value value)
     const Step& step = line_.steps[value];
     if (!plans_[value].inner.empty())
         return is_arithmetic(value) ? write_chain(value) : write_taken(value);
-    if (step.op == TapeOp::power || step.op == TapeOp::guarded_power) return write_power(value);
+    if (step.op == TapeOp::power) return write_power(value);
 
     FusedOp op = plain(step.op);
     if (step.op == TapeOp::lerp && is_constant(step.operands[0])) op = lerp_from_constant;

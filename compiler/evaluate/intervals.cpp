@@ -373,18 +373,14 @@ Interval apply(TapeOp op, Interval a, Interval b, Interval c, Interval d)
     case TapeOp::subtract: return subtract(a, b);
     case TapeOp::multiply: return multiply(a, b);
     case TapeOp::divide: return divide(a, b);
-    case TapeOp::power:
-    case TapeOp::guarded_power: return power(a, b);
+    case TapeOp::power: return power(a, b);
     case TapeOp::minimum: return minimum(a, b);
     case TapeOp::maximum: return maximum(a, b);
     case TapeOp::step: return less_equal(a, b);
     case TapeOp::normalized: return normalized(a, b);
-    case TapeOp::guarded_normalized:
-        return b.low > 0 ? normalized(a, b) : hull(normalized(a, b), {0, 0});
     case TapeOp::lerp: return lerp(a, b, c);
     case TapeOp::clamp: return minimum(maximum(a, b), c);
-    case TapeOp::smoothstep:
-    case TapeOp::guarded_smoothstep: return smoothstep(a, b, c);
+    case TapeOp::smoothstep: return smoothstep(a, b, c);
     case TapeOp::less: return less(a, b);
     case TapeOp::less_equal: return less_equal(a, b);
     case TapeOp::equal: return equal(a, b);

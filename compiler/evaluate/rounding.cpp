@@ -375,8 +375,7 @@ Step Rules::step()
     case TapeOp::sum4: return long_sum();
     case TapeOp::multiply: return multiply();
     case TapeOp::divide: return divide();
-    case TapeOp::power:
-    case TapeOp::guarded_power: return power();
+    case TapeOp::power: return power();
     case TapeOp::minimum:
     case TapeOp::maximum: return choose_extreme();
     case TapeOp::lerp: return lerp();
@@ -394,9 +393,7 @@ Step Rules::step()
     case TapeOp::logical_not: return decision(of_exact(), of_computed());
     // Taken apart by rounding_tape.
     case TapeOp::saturate:
-    case TapeOp::clamp:
-    case TapeOp::guarded_normalized:
-    case TapeOp::guarded_smoothstep: break;
+    case TapeOp::clamp: break;
     }
     return combine(everything, everything, {infinity, infinity, 0, false});
 }

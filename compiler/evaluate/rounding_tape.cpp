@@ -86,12 +86,6 @@ private:
             case TapeOp::saturate: return bounded(a, zero(), one());
             case TapeOp::clamp: return bounded(a, b, c);
             case TapeOp::smoothstep: return smooth(a, b, c);
-            case TapeOp::guarded_smoothstep:
-                return operation(TapeOp::select, {operation(TapeOp::less, {a, b}), smooth(a, b, c),
-                                                  operation(TapeOp::less, {a, c})});
-            case TapeOp::guarded_normalized:
-                return operation(TapeOp::select, {operation(TapeOp::less, {zero(), b}),
-                                                  operation(TapeOp::normalized, {a, b}), zero()});
             default: break;
             }
         switch (arity(step.op)) {

@@ -43,7 +43,6 @@ private:
     const KernelTable<double>& table_;
     Lane first_{};
     Lane second_{};
-    Lane third_{};
 };
 
 /// t = saturate((x - edge0) / (edge1 - edge0)); t * t * (3 - 2 * t)
@@ -65,7 +64,6 @@ void HalfUnit::step(TapeOp op, double* result, const double* a, const double* b,
                     const double* d)
 {
     double* const first = first_.data();
-    double* const third = third_.data();
     switch (op) {
     case TapeOp::sum3:
         simple(TapeOp::add, first, a, b);
@@ -83,20 +81,10 @@ void HalfUnit::step(TapeOp op, double* result, const double* a, const double* b,
         for (std::size_t i = 0; i < block_lanes; ++i) result[i] = c[i] == 1 ? b[i] : first[i];
         return;
     case TapeOp::normalized:
-    case TapeOp::guarded_normalized:
         simple(TapeOp::square_root, first, b);
-        simple(TapeOp::divide, first, a, first);
-        for (std::size_t i = 0; i < block_lanes; ++i)
-            result[i] = op == TapeOp::normalized || b[i] > 0 ? first[i] : 0;
+        simple(TapeOp::divide, result, a, first);
         return;
     case TapeOp::smoothstep: smooth(result, a, b, c); return;
-    case TapeOp::guarded_smoothstep:
-        smooth(third, a, b, c);
-        for (std::size_t i = 0; i < block_lanes; ++i) {
-            const double step = c[i] > a[i] ? 1 : 0;
-            result[i] = a[i] < b[i] ? third[i] : step;
-        }
-        return;
     case TapeOp::negate:
     case TapeOp::absolute:
     case TapeOp::sign:
@@ -120,7 +108,6 @@ void HalfUnit::step(TapeOp op, double* result, const double* a, const double* b,
     case TapeOp::multiply:
     case TapeOp::divide:
     case TapeOp::power:
-    case TapeOp::guarded_power:
     case TapeOp::minimum:
     case TapeOp::maximum:
     case TapeOp::step:

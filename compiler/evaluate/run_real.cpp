@@ -101,17 +101,11 @@ void RealUnit::apply(TapeOp op, mpfr_srcptr a, mpfr_srcptr b, mpfr_srcptr c, mpf
     case TapeOp::subtract: mpfr_sub(out, a, b, nearest); break;
     case TapeOp::multiply: mpfr_mul(out, a, b, nearest); break;
     case TapeOp::divide: mpfr_div(out, a, b, nearest); break;
-    case TapeOp::power:
-    case TapeOp::guarded_power: power(a, b); break;
+    case TapeOp::power: power(a, b); break;
     case TapeOp::minimum: mpfr_min(out, a, b, nearest); break;
     case TapeOp::maximum: mpfr_max(out, a, b, nearest); break;
     case TapeOp::step: truth(mpfr_greaterequal_p(b, a) != 0); break;
     case TapeOp::normalized:
-    case TapeOp::guarded_normalized:
-        if (op == TapeOp::guarded_normalized && mpfr_sgn(b) <= 0) {
-            truth(false);
-            break;
-        }
         mpfr_sqrt(first_.get(), b, nearest);
         mpfr_div(out, a, first_.get(), nearest);
         break;
@@ -129,7 +123,6 @@ void RealUnit::apply(TapeOp op, mpfr_srcptr a, mpfr_srcptr b, mpfr_srcptr c, mpf
         mpfr_min(out, first_.get(), c, nearest);
         break;
     case TapeOp::smoothstep:
-    case TapeOp::guarded_smoothstep:
         if (mpfr_less_p(a, b) != 0)
             smooth(a, b, c);
         else

@@ -142,30 +142,13 @@ private:
         case TapeOp::multiply: return infix("*");
         case TapeOp::divide: return infix("/");
         case TapeOp::power: return call("pow");
-        case TapeOp::guarded_power: {
-            const std::string x = number(instruction.a);
-            const std::string y = number(instruction.b);
-            return fmt::format("mix(mix(pow({0}, {1}), {2}, lessThanEqual({0}, {2})), {3}, "
-                               "equal({1}, {2}))",
-                               x, y, zero, one);
-        }
         case TapeOp::minimum: return call("min");
         case TapeOp::maximum: return call("max");
         case TapeOp::step: return call("step");
         case TapeOp::normalized: return infix("* inversesqrt(") + ")";
-        case TapeOp::guarded_normalized:
-            return fmt::format("mix({3}, {0} * inversesqrt({1}), greaterThanEqual({1}, "
-                               "f16vec2({2})))",
-                               number(instruction.a), number(instruction.b), dialect_.least_normal,
-                               zero);
         case TapeOp::lerp: return call("mix");
         case TapeOp::clamp: return call("clamp");
         case TapeOp::smoothstep: return call("smoothstep");
-        case TapeOp::guarded_smoothstep:
-            return fmt::format("mix(mix({3}, {4}, greaterThan({2}, {0})), smoothstep({0}, {1}, "
-                               "{2}), greaterThan({1}, {0}))",
-                               number(instruction.a), number(instruction.b), number(instruction.c),
-                               zero, one);
         case TapeOp::less: return call("lessThan");
         case TapeOp::less_equal: return call("lessThanEqual");
         case TapeOp::equal: return call("equal");

@@ -24,13 +24,10 @@ int weight(TapeOp op)
     case TapeOp::log:
     case TapeOp::sine:
     case TapeOp::cosine:
-    case TapeOp::normalized:
-    case TapeOp::guarded_normalized: return weight_of_division + 1;
+    case TapeOp::normalized: return weight_of_division + 1;
     case TapeOp::power:
-    case TapeOp::guarded_power:
     case TapeOp::tangent: return 2 * weight_of_division + 1;
-    case TapeOp::smoothstep:
-    case TapeOp::guarded_smoothstep: return weight_of_division + 5;
+    case TapeOp::smoothstep: return weight_of_division + 5;
     // Polynomials of a target's own.
     case TapeOp::arc_sine:
     case TapeOp::arc_cosine:

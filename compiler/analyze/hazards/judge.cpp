@@ -47,8 +47,7 @@ bool may_cancel(TapeOp op)
     case TapeOp::lerp:
     case TapeOp::log2:
     case TapeOp::log:
-    case TapeOp::power:
-    case TapeOp::guarded_power: return true;
+    case TapeOp::power: return true;
     default: return false;
     }
 }
@@ -67,8 +66,7 @@ std::vector<char> divisor_slots(const evaluate::Tape& tape)
         const Instruction& step = tape.code[i];
         switch (step.op) {
         case TapeOp::divide:
-        case TapeOp::normalized:
-        case TapeOp::guarded_normalized: divides[step.b] = 1; break;
+        case TapeOp::normalized: divides[step.b] = 1; break;
         case TapeOp::inverse_square_root:
         case TapeOp::log2:
         case TapeOp::log: divides[step.a] = 1; break;
@@ -78,7 +76,6 @@ std::vector<char> divisor_slots(const evaluate::Tape& tape)
         case TapeOp::square:
         case TapeOp::square_root:
         case TapeOp::power:
-        case TapeOp::guarded_power:
             if (divides[step.result] != 0) divides[step.a] = 1;
             break;
         default: break;

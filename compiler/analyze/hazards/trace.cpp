@@ -95,21 +95,16 @@ double apply(const Instruction& step, const double* slots)
     case TapeOp::multiply: return r(a * b);
     case TapeOp::divide: return r(a / b);
     case TapeOp::power: return power<Rounding>(a, b);
-    case TapeOp::guarded_power:
-        if (b == 0) return 1;
-        return a <= 0 ? 0 : power<Rounding>(a, b);
     case TapeOp::minimum: return std::fmin(a, b);
     case TapeOp::maximum: return std::fmax(a, b);
     case TapeOp::step: return truth(b >= a);
     case TapeOp::normalized: return r(a / r(std::sqrt(b)));
-    case TapeOp::guarded_normalized: return b > 0 ? r(a / r(std::sqrt(b))) : 0;
     case TapeOp::lerp: return c == 1 && std::isfinite(a) ? b : r(a + r(r(b - a) * c));
     case TapeOp::clamp: return std::fmin(std::fmax(a, b), c);
     case TapeOp::smoothstep:
         if constexpr (is_exact<Rounding>)
             if (b <= a) return truth(c > a);
         return smooth<Rounding>(a, b, c);
-    case TapeOp::guarded_smoothstep: return b <= a ? truth(c > a) : smooth<Rounding>(a, b, c);
     case TapeOp::less: return truth(a < b);
     case TapeOp::less_equal: return truth(a <= b);
     case TapeOp::equal: return truth(a == b);

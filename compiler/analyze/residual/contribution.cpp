@@ -211,8 +211,7 @@ private:
         case TapeOp::subtract: difference(); return;
         case TapeOp::multiply: product(); return;
         case TapeOp::divide: quotient(); return;
-        case TapeOp::power:
-        case TapeOp::guarded_power: power(); return;
+        case TapeOp::power: power(); return;
         case TapeOp::lerp: blend(); return;
         case TapeOp::minimum:
         case TapeOp::maximum: choice(); return;
@@ -238,9 +237,7 @@ private:
         case TapeOp::arc_cosine:
         case TapeOp::step:
         case TapeOp::normalized:
-        case TapeOp::guarded_normalized:
         case TapeOp::smoothstep:
-        case TapeOp::guarded_smoothstep:
         case TapeOp::less:
         case TapeOp::less_equal:
         case TapeOp::equal:
