@@ -34,6 +34,9 @@ bool is_power_of_two(Interval x)
     return x.low == x.high && x.low != 0 && std::abs(std::frexp(x.low, &exponent)) == 0.5;
 }
 
+/// What an operand is, exactly or as computed: slopes over both are derivatives, too.
+Interval either(const Rounded& x) { return hull(x.exact, x.computed); }
+
 /// a / (a + b), the share of a in a sum: 1 / (1 + b / a).
 Interval share(Interval a, Interval b, Interval total)
 {
@@ -169,13 +172,13 @@ Step Rules::multiply()
     const Interval through = of_computed();
     // a' b' - a b = (a' - a) b + a' (b' - b)
     slopes_[0].aa = b().exact;
-    slopes_[1].aa = a().computed;
+    slopes_[1].aa = either(a());
     slopes_[0].ar = exact;
-    slopes_[1].ar = evaluate::multiply(a().computed, b().exact);
+    slopes_[1].ar = evaluate::multiply(slopes_[1].aa, b().exact);
     slopes_[0].rr = {1, 1};
     slopes_[1].rr = a().relative < infinity ? around(1, a().relative) : everything;
     if (least_size(a().exact) > 0) slopes_[0].ra = evaluate::divide({1, 1}, a().exact);
-    if (least_size(exact) > 0) slopes_[1].ra = evaluate::divide(a().computed, exact);
+    if (least_size(exact) > 0) slopes_[1].ra = evaluate::divide(slopes_[1].aa, exact);
     // Underflow is carried on the other operand with its relative error.
     if (a().underflow > 0 && size(slopes_[0].aa) < infinity)
         slopes_[0].aa = hull(slopes_[0].aa, between(b()));
@@ -205,10 +208,10 @@ Step Rules::divide()
     const Interval exact = of_exact();
     const Interval through = of_computed();
     // a'/b' - a/b = (a' - a) / b' - (a / b) (b' - b) / b'
-    slopes_[0].aa =
-        least_size(b().computed) > 0 ? evaluate::divide({1, 1}, b().computed) : everything;
+    const Interval divisors = either(b());
+    slopes_[0].aa = least_size(divisors) > 0 ? evaluate::divide({1, 1}, divisors) : everything;
     slopes_[1].aa =
-        least_size(b().computed) > 0 ? negate(evaluate::divide(exact, b().computed)) : everything;
+        least_size(divisors) > 0 ? negate(evaluate::divide(exact, divisors)) : everything;
     const double divisor = fold(b());
     if (b().underflow > 0) {
         folded_[1] = true;
@@ -230,8 +233,7 @@ Step Rules::divide()
     }
     if (least_size(exact) > 0) {
         slopes_[0].ra = evaluate::divide(slopes_[0].aa, exact);
-        if (least_size(b().computed) > 0)
-            slopes_[1].ra = negate(evaluate::divide({1, 1}, b().computed));
+        if (least_size(divisors) > 0) slopes_[1].ra = negate(evaluate::divide({1, 1}, divisors));
     }
     Own own = correctly(through, true);
     if (rounding_.machine == Machine::vulkan)
@@ -247,7 +249,7 @@ Step Rules::square()
     const Interval exact = of_exact();
     const Interval through = of_computed();
     // a'^2 - a^2 = (a' + a) (a' - a)
-    slopes_[0].aa = add(a().exact, a().computed);
+    slopes_[0].aa = add(a().exact, either(a()));
     if (a().underflow > 0)
         slopes_[0].aa = evaluate::multiply({2, 2}, hull(slopes_[0].aa, between(a())));
     const double r = a().relative;

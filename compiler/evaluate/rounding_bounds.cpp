@@ -25,6 +25,22 @@ Interval cut(Interval x, Limit::Kind kind, Interval other)
     return x;
 }
 
+/// True where the exact result may jump from one value to another within the box.
+bool is_choice(TapeOp op, Interval first)
+{
+    switch (op) {
+    case TapeOp::select: return first.low != first.high;
+    case TapeOp::sign: return !(first.low > 0 || first.high < 0 || first.low == first.high);
+    case TapeOp::floor:
+    case TapeOp::step:
+    case TapeOp::less:
+    case TapeOp::less_equal:
+    case TapeOp::equal:
+    case TapeOp::not_equal: return true;
+    default: return false;
+    }
+}
+
 /// True for an operand whose error an adjoint may carry in these units.
 bool carries(Interval slope, double error) { return error == 0 || is_bounded(slope); }
 
@@ -37,7 +53,8 @@ Interval scaled(Interval adjoint, Interval slope)
 
 RoundingBounds::RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor)
     : tape_{tape}, rounding_{rounding}, floor_{floor}, values_(tape.nodes.size()),
-      steps_(tape.nodes.size()), operands_(tape.nodes.size()), adjoint_(tape.nodes.size())
+      ranges_(tape.nodes.size()), steps_(tape.nodes.size()), operands_(tape.nodes.size()),
+      adjoint_(tape.nodes.size()), trend_(tape.inputs.size())
 {
     for (std::size_t i = 0; i < tape.nodes.size(); ++i)
         if (tape.nodes[i].kind == RoundingNode::Kind::literal)
@@ -70,6 +87,83 @@ void RoundingBounds::forward(std::span<const Interval> box)
     }
 }
 
+/// The values over the reals alone.
+Interval RoundingBounds::exact_range(std::span<const Interval> box) const
+{
+    for (std::size_t i = 0; i < tape_.nodes.size(); ++i) {
+        const RoundingNode& node = tape_.nodes[i];
+        if (node.kind == RoundingNode::Kind::input) ranges_[i] = box[node.input];
+        if (node.kind == RoundingNode::Kind::literal) ranges_[i] = values_[i].exact;
+        if (node.kind != RoundingNode::Kind::operation) continue;
+        std::array<Interval, 4> in{};
+        for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k)
+            in[k] = ranges_[node.operands[k]];
+        for (const Limit& limit : node.limits)
+            in[limit.operand] = cut(in[limit.operand], limit.kind, ranges_[limit.other]);
+        if (node.op == TapeOp::smoothstep) {
+            // The polynomial alone.
+            ranges_[i] = smoothstep({0, 0}, {1, 1}, in[0]);
+            continue;
+        }
+        ranges_[i] = apply(node.op, in[0], in[1], in[2], in[3]);
+    }
+    return ranges_.back();
+}
+
+/// The same, with every input in which the result rises or falls all over the box at the end where
+/// the result is least, then greatest.
+Interval RoundingBounds::monotone_range(std::span<const Interval> box) const
+{
+    Interval result = values_.back().exact;
+    if (std::ranges::all_of(trend_, [](int trend) { return trend == 0; })) return result;
+    std::vector<Interval> least(box.begin(), box.end());
+    std::vector<Interval> greatest = least;
+    for (std::size_t i = 0; i < box.size(); ++i) {
+        if (trend_[i] == 0) continue;
+        const bool rises = trend_[i] > 0;
+        least[i].low = least[i].high = rises ? box[i].low : box[i].high;
+        greatest[i].low = greatest[i].high = rises ? box[i].high : box[i].low;
+    }
+    result.low = std::max(result.low, exact_range(least).low);
+    result.high = std::min(result.high, exact_range(greatest).high);
+    return result.low <= result.high ? result : values_.back().exact;
+}
+
+/// Slopes enclose derivatives, so the sign of a product of them is one of a derivative: of
+/// logarithms where a node's value keeps its sign, for there they cancel best. What lies behind a
+/// choice or an unbounded slope is unknown.
+void RoundingBounds::find_trends()
+{
+    std::ranges::fill(trend_, 0);
+    std::ranges::fill(adjoint_, Interval{});
+    adjoint_.back() = {1, 1};
+    const auto sign = [](Interval x) { return x.low >= 0 ? 1 : x.high <= 0 ? -1 : 0; };
+    const auto is_relative = [](const Rounded& x) { return least_size(x.exact) > 0; };
+    for (std::size_t i = tape_.nodes.size(); i-- > 0;) {
+        const Interval adjoint = adjoint_[i];
+        if (adjoint == Interval{}) continue;
+        const RoundingNode& node = tape_.nodes[i];
+        if (node.kind == RoundingNode::Kind::input) {
+            trend_[node.input] = sign(adjoint);
+            for (const Rounded* logarithmic : {&values_[i], &values_.back()})
+                if (is_relative(*logarithmic)) trend_[node.input] *= sign(logarithmic->exact);
+        }
+        if (node.kind != RoundingNode::Kind::operation) continue;
+        const bool unknown = is_choice(node.op, operands_[i][0].exact);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k) {
+            const Slope& all = steps_[i].slopes[k];
+            // In the operand's own units, that all its users share, whatever limits this one knows.
+            const bool of_relative = is_relative(values_[node.operands[k]]);
+            const Interval slope = is_relative(values_[i]) ? (of_relative ? all.rr : all.ra)
+                                                           : (of_relative ? all.ar : all.aa);
+            Interval& operand = adjoint_[node.operands[k]];
+            operand = unknown || !is_bounded(slope) || !is_bounded(adjoint)
+                          ? everything
+                          : add(operand, multiply(adjoint, slope));
+        }
+    }
+}
+
 double RoundingBounds::backward_absolute()
 {
     std::ranges::fill(adjoint_, Interval{});
@@ -85,8 +179,9 @@ double RoundingBounds::backward_absolute()
         }
         const Step& step = steps_[i];
         bool through = is_bounded(adjoint);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k)
+        for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k) {
             through = through && carries(step.slopes[k].aa, operands_[i][k].absolute);
+        }
         if (!through) {
             total += times(size(adjoint), step.value.absolute);
             continue;
@@ -160,14 +255,16 @@ BoxError RoundingBounds::error(std::span<const Interval> box)
     if (rounding_.machine == Machine::kernels) {
         result.absolute = std::min(result.absolute, backward_absolute());
         relative = std::min(relative, backward_relative());
+        find_trends();
+        result.exact = monotone_range(box);
     }
     if (relative < infinity) {
         result.absolute =
-            std::min(result.absolute, outward(relative * size(value.exact) + value.underflow));
+            std::min(result.absolute, outward(relative * size(result.exact) + value.underflow));
         result.relative = outward(relative + value.underflow / floor_);
     }
     result.relative = std::min(
-        result.relative, outward(result.absolute / std::max(least_size(value.exact), floor_)));
+        result.relative, outward(result.absolute / std::max(least_size(result.exact), floor_)));
     return result;
 }
 

@@ -35,6 +35,9 @@ public:
 private:
     void forward(std::span<const Interval> box);
     Rounded limited(const RoundingNode& node, std::size_t operand) const;
+    Interval exact_range(std::span<const Interval> box) const;
+    Interval monotone_range(std::span<const Interval> box) const;
+    void find_trends();
     double backward_absolute();
     double backward_relative();
 
@@ -42,9 +45,12 @@ private:
     const Rounding& rounding_;
     double floor_;
     std::vector<Rounded> values_;
+    mutable std::vector<Interval> ranges_;
     std::vector<Step> steps_;
     std::vector<std::array<Rounded, 4>> operands_;
     std::vector<Interval> adjoint_;
+    /// How the exact result depends on each input over the last box: 1 rises, -1 falls, 0 unknown.
+    std::vector<int> trend_;
 };
 
 }  // namespace lobe::evaluate

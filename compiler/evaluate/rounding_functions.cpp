@@ -42,7 +42,7 @@ Step Rules::square_root()
     const Interval exact = of_exact();
     const Interval through = of_computed();
     // 1 / (sqrt a + sqrt a')
-    const Interval roots = add(exact, through);
+    const Interval roots = add(exact, hull(exact, through));
     if (roots.low > 0) slopes_[0].aa = evaluate::divide({1, 1}, roots);
     const double r = a().relative;
     if (r <= 0.25) {

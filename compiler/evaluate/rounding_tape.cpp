@@ -64,6 +64,19 @@ private:
     {
         return operation(TapeOp::minimum, {operation(TapeOp::maximum, {x, low}), high});
     }
+    /// saturate(1 - q) is 1 - saturate(q), to the bit: rounding is monotone. The latter does not
+    /// carry the error of a large q to where it is cut off.
+    std::uint32_t saturated(std::uint32_t x)
+    {
+        const RoundingNode& node = out_.nodes[x];
+        const bool is_rest = node.kind == RoundingNode::Kind::operation &&
+                             node.op == TapeOp::subtract &&
+                             out_.nodes[node.operands[0]].kind == RoundingNode::Kind::literal &&
+                             out_.nodes[node.operands[0]].literal.value == 1;
+        if (!is_rest) return bounded(x, zero(), one());
+        const std::uint32_t q = node.operands[1];
+        return operation(TapeOp::subtract, {one(), bounded(q, zero(), one())});
+    }
     std::uint32_t smooth(std::uint32_t edge0, std::uint32_t edge1, std::uint32_t x)
     {
         // x - 0 rounds nothing, and keeps it plain that the divisor is what a guard compared.
@@ -83,7 +96,7 @@ private:
         const std::uint32_t c = now_[step.c];
         const std::uint32_t d = now_[step.d];
         if (detail_ == Detail::steps) switch (step.op) {
-            case TapeOp::saturate: return bounded(a, zero(), one());
+            case TapeOp::saturate: return saturated(a);
             case TapeOp::clamp: return bounded(a, b, c);
             case TapeOp::smoothstep: return smooth(a, b, c);
             default: break;
