@@ -40,11 +40,56 @@ Interval around(double x, const Interval& side)
 
 }  // namespace
 
+namespace {
+
+/// The whole box, cut where an input is compared with a number: on either side every condition of
+/// this kind is decided, and what it chooses has slopes.
+std::vector<Box> by_conditions(const Subject& subject)
+{
+    using evaluate::RoundingNode;
+    using evaluate::TapeOp;
+    const auto& nodes = subject.steps.nodes;
+    std::vector<Box> boxes{subject.box};
+    constexpr std::size_t most = 64;
+    for (const RoundingNode& node : nodes) {
+        if (node.kind != RoundingNode::Kind::operation || node.arity != 2) continue;
+        if (node.op != TapeOp::less && node.op != TapeOp::less_equal && node.op != TapeOp::equal &&
+            node.op != TapeOp::not_equal && node.op != TapeOp::step)
+            continue;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const RoundingNode& input = nodes[node.operands[k]];
+            const RoundingNode& number = nodes[node.operands[1 - k]];
+            if (input.kind != RoundingNode::Kind::input ||
+                number.kind != RoundingNode::Kind::literal || boxes.size() > most)
+                continue;
+            std::vector<Box> parts;
+            for (Box& box : boxes) {
+                const Interval side = box[input.input];
+                const double at = number.literal.value;
+                if (!(side.low <= at && at < side.high)) {
+                    parts.push_back(std::move(box));
+                    continue;
+                }
+                auto [below, above] = halves(subject, box, {input.input, at});
+                parts.push_back(std::move(below));
+                parts.push_back(std::move(above));
+            }
+            boxes = std::move(parts);
+        }
+    }
+    return boxes;
+}
+
+}  // namespace
+
 Division::Division(const Subject& subject, Machine machine, Measure measure, Worst& worst)
     : subject_{subject}, measure_{measure}, worst_{worst},
       bounds_{subject.steps, evaluate::rounding(machine, subject.precision), subject.floor}
 {
-    leaves_.push_back(leaf(subject.box, 0));
+    for (Box& box : by_conditions(subject)) {
+        leaves_.push_back(leaf(std::move(box), 0));
+        std::ranges::push_heap(leaves_, less_bad<Leaf, Leaf>);
+    }
 }
 
 double Division::ratio() const
@@ -55,7 +100,7 @@ double Division::ratio() const
 
 void Division::refine(std::size_t budget, double target)
 {
-    const std::size_t end = spent_ + budget;
+    const std::size_t end = spent_ + boxes_within(budget, subject_);
     while (spent_ < end && bound() > 0 && bound() > target * worst_.error()) {
         if (spent_ >= next_search_) {
             next_search_ += next_search_ / 2;
@@ -121,32 +166,35 @@ void Division::search()
     }
 }
 
-/// The side that widens the bound most: it alone at full width, with all others near the worst
-/// known point or in their middles; or all at full width but it. No other cut helps until that one
-/// is made, however many it takes.
-std::optional<std::size_t> Division::loosest(const Leaf& parent, bool at_worst)
+/// The side that widens the bound most: all at full width but it; or it alone, with all others near
+/// their middles. No other cut helps until that one is made, however many it takes.
+std::optional<std::size_t> Division::loosest(const Leaf& parent)
 {
-    if (parent.box.size() < 3 || worst_.point() == nullptr) return std::nullopt;
+    if (parent.box.size() < 3) return std::nullopt;
     Box narrow = parent.box;
     for (std::size_t i = 0; i < narrow.size(); ++i) {
         const Interval& side = narrow[i];
-        const double x = at_worst ? std::clamp<double>((*worst_.point())[i], side.low, side.high)
-                                  : side.low + (side.high - side.low) / 2;
+        const double x = side.low + (side.high - side.low) / 2;
         narrow[i] = around(x, side);
     }
-    const double tight = bound_of(narrow);
     Box wide = parent.box;
     std::optional<std::size_t> result;
     double most = 1.1;
-    for (std::size_t i = 0; i < wide.size(); ++i) {
-        if (wide[i].low == wide[i].high) continue;
-        std::swap(wide[i], narrow[i]);
-        const double gain = std::max(bound_of(narrow) / tight, parent.bound / bound_of(wide));
-        std::swap(wide[i], narrow[i]);
-        if (gain > most) {
+    const auto gain_most = [&](const auto& gain_of) {
+        for (std::size_t i = 0; i < wide.size(); ++i) {
+            if (wide[i].low == wide[i].high) continue;
+            std::swap(wide[i], narrow[i]);
+            const double gain = gain_of();
+            std::swap(wide[i], narrow[i]);
+            if (!(gain > most)) continue;
             most = gain;
             result = i;
         }
+    };
+    gain_most([&] { return parent.bound / bound_of(wide); });
+    if (!result) {
+        const double tight = bound_of(narrow);
+        gain_most([&] { return bound_of(narrow) / tight; });
     }
     return result;
 }
@@ -155,9 +203,7 @@ bool Division::divide_worst()
 {
     const Leaf parent = leaves_.front();
     std::vector<Cut> cuts;
-    auto side = loosest(parent, parent.depth % 2 == 0);
-    if (!side) side = loosest(parent, parent.depth % 2 != 0);
-    if (side) cuts_of(parent.box[*side], *side, cuts);
+    if (const auto side = loosest(parent)) cuts_of(parent.box[*side], *side, cuts);
     if (cuts.empty())
         for (std::size_t i = 0; i < parent.box.size(); ++i) cuts_of(parent.box[i], i, cuts);
     if (cuts.empty()) return false;

@@ -27,13 +27,14 @@ class Division {
 public:
     Division(const Subject& subject, evaluate::Machine machine, Measure measure, Worst& worst);
 
-    /// Divides until the bound is at most `target` times what was observed, or `budget` bounds
-    /// were computed.
+    /// Divides until the bound is at most `target` times what was observed, or the budget
+    /// (`boxes_within`) of bounds were computed.
     void refine(std::size_t budget, double target);
 
     /// Over all boxes; infinite: none was found.
     double bound() const { return leaves_.front().bound; }
     double ratio() const;
+    const Box& worst() const { return leaves_.front().box; }  ///< the box of the bound
     std::size_t boxes() const { return leaves_.size(); }
 
 private:
@@ -47,7 +48,7 @@ private:
     Leaf leaf(Box box, std::uint32_t depth);
     double doubt() const;
     double bound_of(const Box& box);
-    std::optional<std::size_t> loosest(const Leaf& parent, bool at_worst);
+    std::optional<std::size_t> loosest(const Leaf& parent);
     bool divide_worst();
     void search();
 

@@ -79,8 +79,9 @@ public:
                 values_[i] =
                     evaluate::admit(rules_, {box[node.input].low, box[node.input].high, false});
             if (node.kind != RoundingNode::Kind::operation) continue;
+            // Past the arity they are not read.
             std::array<Acceptance, 4> operands{};
-            for (std::size_t k = 0; k < static_cast<std::size_t>(node.arity); ++k)
+            for (std::size_t k = 0; k < operands.size(); ++k)
                 operands[k] = values_[node.operands[k]];
             for (const Limit& limit : node.limits)
                 cut(operands[limit.operand], limit.kind, values_[limit.other]);
@@ -255,6 +256,7 @@ Finite prove_finite(const Subject& subject, const Box& box, std::size_t budget)
 {
     Prover prover{subject};
     Finite result;
+    budget = boxes_within(budget, subject);
     std::vector<Box> open = divide(subject, prover, {box}, budget / 2, result.boxes);
     join(open, grid_of(subject.precision));
     std::ranges::stable_sort(

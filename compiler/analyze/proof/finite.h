@@ -16,7 +16,7 @@ struct Finite {
     std::size_t boxes = 0;  ///< that were looked at
 };
 
-/// `budget`: how many boxes to look at before what is left counts as open.
+/// `budget`: how many boxes to look at (`boxes_within`) before what is left counts as open.
 Finite prove_finite(const Subject& subject, const Box& box, std::size_t budget);
 
 /// The first operation that may leave its domain or the format's range somewhere in the box, in

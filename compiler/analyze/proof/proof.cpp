@@ -12,8 +12,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <mutex>
-#include <numeric>
+#include <string_view>
 
 namespace lobe::analyze {
 namespace {
@@ -31,6 +32,8 @@ constexpr double sharp = 4;
 constexpr double sharp_vulkan = 16;
 /// The better of both measures is divided on while it is above this.
 constexpr double wanted = 8;
+/// From here no budget gets there.
+constexpr double hopeless = 1e6;
 
 // ---- a proof as text
 
@@ -186,6 +189,8 @@ private:
             out_.finite = false;
             out_.over.reset();
             out_.refused = first_hazard(subject, subject.box);
+            for (ErrorBound* bound : {&out_.ieee, &out_.vulkan})
+                bound->absolute = bound->relative = evaluate::infinity;
             test(subject, subject.box, 65536);
             return false;
         }
@@ -237,7 +242,8 @@ private:
         by_absolute.refine(share(16), sharp);
         by_relative.refine(share(16), sharp);
         // One good measure is enough; the one that is closer gets the rest.
-        if (std::min(by_absolute.ratio(), by_relative.ratio()) > wanted)
+        const double ratio = std::min(by_absolute.ratio(), by_relative.ratio());
+        if (ratio > wanted && ratio < hopeless)
             (by_absolute.ratio() <= by_relative.ratio() ? by_absolute : by_relative)
                 .refine(share(1), wanted);
         Division by_jump{subject, Machine::kernels, Measure::jump, jumps};
@@ -276,7 +282,7 @@ private:
 
 std::string key_of(const std::vector<Subject>& subjects, std::size_t budget)
 {
-    std::string key = fmt::format("proof 1 {} {}\n", budget,
+    std::string key = fmt::format("proof 2 {} {}\n", budget,
                                   subjects.empty() ? 0 : static_cast<int>(subjects[0].precision));
     for (const Subject& subject : subjects) {
         key += dump(subject.steps) + dump(subject.operations);
@@ -293,33 +299,40 @@ std::vector<Proof> prove(const ir::Module& module, const std::vector<ir::Functio
 {
     const std::size_t ways = options.precisions.size();
     std::vector<Proof> out(functions.size() * ways);
-    // The longest first: what is left at the end keeps one thread busy, not all waiting.
-    std::vector<std::size_t> order(out.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::vector<std::size_t> size;
-    for (const ir::Function& function : functions)
-        size.push_back(evaluate::compile(module, function).code.size());
-    std::ranges::stable_sort(
-        order, [&](std::size_t a, std::size_t b) { return size[a / ways] > size[b / ways]; });
+    std::vector<std::vector<Subject>> all(out.size());
+    std::vector<std::string> keys(out.size());
+    for_each_task(out.size(), options.jobs, [&](std::size_t i) {
+        all[i] = subjects(module, functions[i / ways], options.precisions[i % ways]);
+        keys[i] = key_of(all[i], options.boxes);
+    });
+    // Functions of the same content have one proof. The longest first: what is left at the end
+    // keeps one thread busy, not all waiting.
+    std::map<std::string_view, std::vector<std::size_t>> same;
+    for (std::size_t i = 0; i < out.size(); ++i) same[keys[i]].push_back(i);
+    std::vector<std::vector<std::size_t>> tasks;
+    for (auto& [key, indices] : same) tasks.push_back(std::move(indices));
+    std::ranges::stable_sort(tasks, [&](const auto& a, const auto& b) {
+        return keys[a.front()].size() > keys[b.front()].size();
+    });
     std::mutex mutex;
     Progress progress{0, out.size(), {}};
-    for_each_task(out.size(), options.jobs, [&](std::size_t task) {
+    for_each_task(tasks.size(), options.jobs, [&](std::size_t task) {
         const auto start = std::chrono::steady_clock::now();
-        const ir::Function& function = functions[order[task] / ways];
-        const Precision precision = options.precisions[order[task] % ways];
-        std::vector<Subject> all = subjects(module, function, precision);
-        const std::string key = key_of(all, options.boxes);
-        const auto make = [&] { return FunctionProof{all, options.boxes}.prove(); };
-        std::optional<Proof> proof = proof_of(kept(store, key, [&] { return text_of(make()); }));
+        const std::size_t first = tasks[task].front();
+        const auto make = [&] { return FunctionProof{all[first], options.boxes}.prove(); };
+        std::optional<Proof> proof =
+            proof_of(kept(store, keys[first], [&] { return text_of(make()); }));
         if (!proof) proof = make();
-        proof->function = function.name;
-        proof->precision = precision;
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         proof->seconds = seconds.count();
         const std::lock_guard lock{mutex};
-        out[order[task]] = std::move(*proof);
-        ++progress.done;
-        progress.what = function.name;
+        for (const std::size_t i : tasks[task]) {
+            proof->function = functions[i / ways].name;
+            proof->precision = options.precisions[i % ways];
+            out[i] = *proof;
+        }
+        progress.done += tasks[task].size();
+        progress.what = functions[first / ways].name;
         if (options.progress) options.progress(progress);
     });
     return out;

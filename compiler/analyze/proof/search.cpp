@@ -47,26 +47,44 @@ Worst::Worst(const Subject& subject, Measure measure)
     : subject_{subject}, measure_{measure}, bounds_{subject.steps,
                                                     evaluate::rounding(evaluate::Machine::kernels,
                                                                        subject.precision),
-                                                    subject.floor}
+                                                    subject.floor},
+      may_jump_{bounds_.error(subject.box).jump > 0}
 {
+}
+
+/// More than rounding explains, where a decision may turn.
+bool Worst::is_jump(const Point& point, double error)
+{
+    Box here;
+    for (const float x : point) here.push_back({x, x});
+    const evaluate::BoxError bound = bounds_.error(here);
+    const double smooth = measure_ == Measure::relative ? bound.relative : bound.absolute;
+    return bound.jump > 0 && error > smooth;
 }
 
 void Worst::consider(const std::vector<Point>& points, const std::vector<Observed>& values)
 {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const double error = error_of(subject_, values[i], measure_);
-        if (error == 0 || (entries_.size() == capacity && error <= entries_.back().error)) continue;
-        if (std::ranges::any_of(entries_, [&](const Entry& e) { return e.point == points[i]; }))
+    if (measure_ == Measure::jump && !may_jump_) return;
+    std::vector<std::pair<double, std::size_t>> order;  // by error, the greatest first
+    const double least = entries_.size() == capacity ? entries_.back().error : 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (const double error = error_of(subject_, values[i], measure_); error > least)
+            order.emplace_back(-error, i);
+    std::ranges::sort(order);
+    // Whether a point is a jump takes a bound to know: of many points, of the worst.
+    if (order.size() > capacity) order.resize(capacity);
+    if (measure_ == Measure::jump && order.size() > 4) order.resize(4);
+    for (const auto& each : order) {
+        const double error = -each.first;
+        const Point& point = points[each.second];
+        if (entries_.size() == capacity && error <= entries_.back().error) break;
+        if (std::ranges::any_of(entries_, [&](const Entry& e) { return e.point == point; }))
             continue;
-        Box here;
-        for (const float x : points[i]) here.push_back({x, x});
-        const evaluate::BoxError bound = bounds_.error(here);
-        const double smooth = measure_ == Measure::relative ? bound.relative : bound.absolute;
-        const bool jumps = bound.jump > 0 && error > smooth;
+        const bool jumps = may_jump_ && is_jump(point, error);
         if (jumps != (measure_ == Measure::jump)) continue;
         const auto at = std::ranges::find_if(
             entries_, [error](const Entry& entry) { return entry.error < error; });
-        entries_.insert(at, {error, points[i]});
+        entries_.insert(at, {error, point});
         if (entries_.size() > capacity) entries_.pop_back();
     }
 }

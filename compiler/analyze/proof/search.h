@@ -36,10 +36,13 @@ public:
     const std::vector<Entry>& entries() const { return entries_; }
 
 private:
+    bool is_jump(const Point& point, double error);
+
     const Subject& subject_;
     Measure measure_;
     std::vector<Entry> entries_;
     evaluate::RoundingBounds bounds_;
+    bool may_jump_ = false;  ///< somewhere in the subject's box
 };
 
 /// `count` points of a box: uniform, by binades, at and next to its ends.

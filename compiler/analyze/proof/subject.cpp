@@ -76,6 +76,13 @@ std::vector<Subject> subjects(const ir::Module& module, const ir::Function& func
     return result;
 }
 
+std::size_t boxes_within(std::size_t budget, const Subject& subject)
+{
+    constexpr std::size_t usual = 128;
+    const std::size_t operations = std::max(subject.steps.nodes.size(), usual);
+    return std::max<std::size_t>(budget * usual / operations, 1);
+}
+
 void evaluate_points(const Subject& subject, const std::vector<Point>& points,
                      std::vector<Observed>& results)
 {

@@ -45,6 +45,10 @@ Observed confirm_point(const Subject& subject, const Point& point);
 std::vector<Subject> subjects(const ir::Module& module, const ir::Function& function,
                               evaluate::Precision precision);
 
+/// How many boxes of this subject a budget allows. It is told in boxes of a tape of 128 operations;
+/// of a longer tape there are fewer, so that no function takes more time than another. At least 1.
+std::size_t boxes_within(std::size_t budget, const Subject& subject);
+
 /// The nearest number of the precision within the side.
 float on_grid(double value, const evaluate::Interval& side, evaluate::Precision precision);
 
