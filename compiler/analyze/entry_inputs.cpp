@@ -24,6 +24,17 @@ EntryInputs::EntryInputs(const ir::Module& module, ir::FunctionId function, cons
             names_.push_back(input.name +
                              evaluate::component_suffix(input.type, input.quantity, k));
     }
+    // The entry point calls the function with one operand per input.
+    const ir::Function& callee = module[function];
+    const auto operands = entry_.graph.operands(entry_.result);
+    for (std::size_t i = 0; i < callee.inputs.size(); ++i) {
+        const ir::Input& input = callee.inputs[i];
+        if (input.origin != ir::Origin::geometry) continue;
+        for (int k = 0; k < ir::components(input.type); ++k)
+            fields_.push_back(
+                {input.name + evaluate::component_suffix(input.type, input.quantity, k),
+                 operands[i], static_cast<std::size_t>(k)});
+    }
 }
 
 const EntryInputs::Value* EntryInputs::find(std::string_view name) const

@@ -40,6 +40,13 @@ public:
     const Value* find(std::string_view name) const;
     /// The first column of a vector of the geometry; nothing if the function takes none.
     std::optional<std::size_t> find(ir::GeometryField vector) const;
+    /// What the function reads of the geometry: `cos_i`, `h.x`.
+    struct Field {
+        std::string name;
+        ir::ExprId value;  ///< an expression of the entry point
+        std::size_t component = 0;
+    };
+    const std::vector<Field>& fields() const { return fields_; }
 
     /// Every value neutral; directions along the normal.
     Values neutral() const;
@@ -56,6 +63,7 @@ private:
     std::vector<std::string> names_;
     std::vector<Scalar> scalars_;
     std::vector<Value> values_;
+    std::vector<Field> fields_;
     bool geometry_ = false;
     bool tangents_ = false;
 };

@@ -7,6 +7,21 @@
 
 namespace lobe::analyze {
 
+namespace {
+
+/// What proofs leave open becomes points, and what they claim in half is required.
+CornerOptions with_proofs(CornerOptions options, const std::vector<Proof>& proofs)
+{
+    for (const Proof& proof : proofs) {
+        if (proof.precision == evaluate::Precision::float16)
+            options.half.push_back({proof.function, proof.over, proof.refused});
+        for (const NamedBox& box : proof.open) options.open.emplace_back(proof.function, box);
+    }
+    return options;
+}
+
+}  // namespace
+
 bool Stability::ok() const
 {
     const auto is_proved = [](const Proof& proof) {
@@ -30,7 +45,7 @@ Stability stability(const ir::Module& checked, const Sources& sources,
     out.proofs = proofs(module, options.proof, store);
     out.fields = field_proofs(module, options.proof, store);
     if (options.hazards) out.hazards = hazards(checked, sources, options.hazard, store);
-    out.corners = corners(module, sources, options.corner, store);
+    out.corners = corners(module, sources, with_proofs(options.corner, out.proofs), store);
     out.physics = physics(module, sources, options.physics, store);
     out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return out;

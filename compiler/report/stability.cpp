@@ -204,9 +204,11 @@ std::string to_junit(Stabilities stabilities)
         for (const analyze::CornerRow& row : stability.corners.rows) {
             JunitCase one;
             one.name = fmt::format("{} {} {}", row.function, row.target, name(row.precision));
+            if (row.required && !row.claim.empty()) one.name += " where proved";
             const std::size_t bad = row.not_a_number + row.infinite;
             if (!row.required && (bad > 0 || !row.failure.empty())) {
                 one.skipped = fmt::format("not claimed: {} results are NaN or infinite", bad);
+                if (!row.claim.empty()) one.skipped += "; " + row.claim;
             } else if (!row.failure.empty()) {
                 one.failure = row.failure;
             } else if (bad > 0) {

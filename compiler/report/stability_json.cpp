@@ -93,6 +93,7 @@ ordered_json to_json(const analyze::CornerRow& row)
         {"function", row.function}, {"target", row.target},  {"precision", name(row.precision)},
         {"required", row.required}, {"results", row.points}, {"not_a_number", row.not_a_number},
         {"infinite", row.infinite}};
+    if (!row.claim.empty()) out[row.required ? "claim" : "not_claimed"] = row.claim;
     if (!row.example.empty()) out["example"] = row.example;
     if (!row.failure.empty()) out["failure"] = row.failure;
     return out;

@@ -134,15 +134,15 @@ Table corner_table(const analyze::Corners& corners)
     };
     struct Line {
         std::string function;
-        Sums float32, float16;
+        Sums float32, half_proved, half_elsewhere;
         std::string example;
     };
     std::vector<Line> lines;
     for (const analyze::CornerRow& row : corners.rows) {
         auto at = std::ranges::find(lines, row.function, &Line::function);
-        if (at == lines.end()) at = lines.insert(lines.end(), Line{row.function, {}, {}, {}});
+        if (at == lines.end()) at = lines.insert(lines.end(), Line{row.function, {}, {}, {}, {}});
         const bool is_float = row.precision == emit::Precision::float32;
-        Sums& sums = is_float ? at->float32 : at->float16;
+        Sums& sums = is_float ? at->float32 : row.required ? at->half_proved : at->half_elsewhere;
         ++sums.runs;
         sums.points += row.points;
         sums.bad += row.not_a_number + row.infinite;
@@ -156,16 +156,24 @@ Table corner_table(const analyze::Corners& corners)
         return {grouped(sums.bad), required ? Style::bad : Style::plain};
     };
     Table table;
-    table.columns = {{"function"},       {"runs", true}, {"results", true},
-                     {"NaN, inf", true}, {"half", true}, {"NaN, inf in half", true},
+    table.columns = {{"function"},
+                     {"runs", true},
+                     {"results", true},
+                     {"NaN, inf", true},
+                     {"half, proved", true},
+                     {"NaN, inf there", true},
+                     {"half, elsewhere", true},
+                     {"NaN, inf there", true},
                      {"example"}};
     for (const Line& line : lines)
         table.rows.push_back({{line.function},
                               {std::to_string(line.float32.runs)},
                               {grouped(line.float32.points)},
                               cell(line.float32, true),
-                              {grouped(line.float16.points)},
-                              cell(line.float16, false),
+                              {grouped(line.half_proved.points)},
+                              cell(line.half_proved, true),
+                              {grouped(line.half_elsewhere.points)},
+                              cell(line.half_elsewhere, false),
                               {line.example, Style::faint}});
     return table;
 }

@@ -174,6 +174,60 @@ TEST_CASE("an open box becomes points", "[corners]")
         CHECK(std::ranges::count(without.columns[column], value) == 0);
         CHECK(std::ranges::count(with.columns[column], value) > 0);
     }
+    // The points of the box are the last ones; their light is where the box says.
+    for (std::size_t at = without.size(); at < with.size(); ++at) {
+        const auto [lx, ly, lz, vx, vy, vz, nx, ny, nz] = vectors(with, at);
+        // Three products of components up to 1, and two sums: an ulp each on any device.
+        CHECK(lx * nx + ly * ny + lz * nz < 0.25 + 5 * 0x1p-23);
+    }
+}
+
+TEST_CASE("half is required where it is proved, and nowhere else", "[corners][device]")
+{
+    FunctionBuilder f{"large"};
+    const auto cos_i = f.geometry(ir::GeometryField::cos_i);
+    const auto scaled = f(ir::Op::multiply, {cos_i, f.literal("1000")});
+    const ir::Module module = module_of(f.finish(f(ir::Op::multiply, {scaled, scaled})));
+    const auto half_rows = [&](const analyze::HalfClaim& claim) {
+        analyze::CornerOptions options;
+        options.continuity = false;
+        options.half = {claim};
+        std::vector<CornerRow> rows = analyze::corners(module, {}, options, {}).rows;
+        std::erase_if(
+            rows, [](const CornerRow& row) { return row.precision != emit::Precision::float16; });
+        return rows;
+    };
+    const auto rows_without = rows_of(module);
+    const auto whole =
+        std::ranges::find(rows_without, emit::Precision::float16, &CornerRow::precision);
+    REQUIRE(whole != rows_without.end());
+
+    // 125^2 is a half; from 256^2 on there is none.
+    const std::vector<CornerRow> rows =
+        half_rows({"large", analyze::NamedBox{{{"cos_i", {0, 0.125}}}}, ""});
+    REQUIRE(rows.size() == 4);  // the evaluator and one target
+    for (std::size_t i = 0; i < rows.size(); i += 2) {
+        CAPTURE(rows[i].target);
+        CHECK(rows[i].target == rows[i + 1].target);
+        CHECK(rows[i].required);
+        CHECK(rows[i].claim == "cos_i in [0, 0.125]");
+        CHECK(rows[i].points > 0);
+        CHECK(rows[i].infinite == 0);
+        CHECK_FALSE(rows[i + 1].required);
+        CHECK(rows[i + 1].infinite > 0);
+        CHECK(rows[i].points + rows[i + 1].points == whole->points);
+    }
+    // A claim that is not true is found out.
+    const std::vector<CornerRow> wrong =
+        half_rows({"large", analyze::NamedBox{{{"cos_i", {0, 1}}}}, ""});
+    CHECK(wrong.front().required);
+    CHECK(wrong.front().infinite > 0);
+
+    const std::vector<CornerRow> refused = half_rows({"large", {}, "multiply may overflow"});
+    REQUIRE(refused.size() == 2);
+    CHECK_FALSE(refused.front().required);
+    CHECK(refused.front().claim == "multiply may overflow");
+    CHECK(refused.front().infinite == whole->infinite);
 }
 
 TEST_CASE("what is not finite is counted on every target, defined or not", "[corners][device]")
@@ -227,7 +281,7 @@ TEST_CASE("nothing that ships is infinite or no number in float", "[corners][dev
     REQUIRE(corners.no_device == "");
     REQUIRE(!corners.rows.empty());
     for (const CornerRow& row : corners.rows) {
-        CAPTURE(row.function, row.target, row.example);
+        CAPTURE(row.function, row.target, row.claim, row.example);
         CHECK(row.failure == "");
         CHECK(row.points > 0);
         if (!row.required) continue;

@@ -116,3 +116,16 @@ TEST_CASE("half does not fail a run that does not claim it")
     CHECK(stability.ok());
     CHECK_THAT(report::to_junit({&stability, 1}), Contains("not claimed: 9 results"));
 }
+
+TEST_CASE("half fails a run where a proof claims it")
+{
+    analyze::Stability stability = sample();
+    analyze::CornerRow row = stability.corners.rows[0];
+    row.precision = emit::Precision::float16;
+    row.claim = "x in [0, 1]";
+    stability.corners.rows.push_back(row);
+    CHECK(stability.ok());
+    stability.corners.rows.back().infinite = 9;
+    CHECK_FALSE(stability.ok());
+    CHECK_THAT(report::to_junit({&stability, 1}), Contains("where proved"));
+}

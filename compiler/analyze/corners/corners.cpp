@@ -1,5 +1,6 @@
 #include "analyze/corners/corners.h"
 
+#include "analyze/corners/fields.h"
 #include "analyze/heads.h"
 #include "analyze/kept_lines.h"
 #include "analyze/tasks.h"
@@ -26,30 +27,30 @@ struct Subject {
     const emit::BxdfCheck* bxdf = nullptr;  ///< set: a BxDF's output, on its one target
 };
 
-/// NaN and infinities among results of the same points.
+/// NaN and infinities among results.
 struct Count {
+    std::size_t results = 0;
     std::size_t not_a_number = 0;
     std::size_t infinite = 0;
-    std::optional<std::size_t> example;  ///< index of a result; a NaN if there is one
+    std::optional<std::size_t> example;  ///< a point; of a NaN if there is one
     float value = 0;
 
-    /// `results`: the components of point 0, of point 1, …
-    void add(std::span<const float> results, std::size_t components)
+    /// `components`: of the result at a point.
+    void add(std::size_t point, std::span<const float> components)
     {
-        for (std::size_t first = 0; first < results.size(); first += components) {
-            bool nan = false, infinity = false;
-            for (std::size_t i = first; i < first + components; ++i) {
-                if (std::isfinite(results[i])) continue;
-                nan |= std::isnan(results[i]);
-                infinity |= std::isinf(results[i]);
-                if (!example || (std::isnan(results[i]) && !std::isnan(value))) {
-                    example = i;
-                    value = results[i];
-                }
+        bool nan = false, infinity = false;
+        for (const float component : components) {
+            if (std::isfinite(component)) continue;
+            nan |= std::isnan(component);
+            infinity |= std::isinf(component);
+            if (!example || (std::isnan(component) && !std::isnan(value))) {
+                example = point;
+                value = component;
             }
-            not_a_number += nan;
-            infinite += infinity;
         }
+        ++results;
+        not_a_number += nan;
+        infinite += infinity;
     }
 };
 
@@ -76,133 +77,166 @@ public:
         points_ = corner_points(inputs_, grid_of(table_of(subject.precision)), open);
         input_ = interleaved(points_);
         hash_ = hash_of(input_);
+        if (subject.precision == emit::Precision::float16)
+            for (const HalfClaim& claim : options.half)
+                if (claim.function == inputs_.entry().name) take(claim);
     }
 
     std::vector<CornerRow> run(const std::vector<const emit::Target*>& targets)
     {
         std::vector<CornerRow> rows;
-        if (subject_.bxdf == nullptr) rows.push_back(evaluator());
+        if (subject_.bxdf == nullptr) rows = evaluator();
         if (device_ == nullptr) return rows;
         for (const emit::Target* target : targets) {
             const bool half = subject_.precision == emit::Precision::float16;
             // One target emits half, and not every device computes in it.
             if (half && (target->name != "glsl450" || !device_->facts().float16)) continue;
             if (subject_.bxdf != nullptr && target->name != "ue4") continue;
-            rows.push_back(on_device(*target));
+            std::ranges::move(on_device(*target), std::back_inserter(rows));
         }
         return rows;
     }
 
 private:
-    CornerRow row(std::string target) const
+    void take(const HalfClaim& claim)
     {
-        CornerRow out;
-        out.function = inputs_.entry().name;
-        out.target = std::move(target);
-        out.precision = subject_.precision;
-        out.required = subject_.precision == emit::Precision::float32;
-        return out;
+        why_not_ = claim.refused;
+        if (!claim.over) return;
+        claim_ = describe(*claim.over);
+        why_not_ = "outside of " + claim_;
+        claimed_ =
+            inside(inputs_, points_, evaluate::Precision::float16, *claim.over, Inside::certainly);
     }
 
-    CornerRow evaluator() const
+    bool is_claimed(std::size_t point) const { return !claimed_.empty() && claimed_[point]; }
+
+    /// What a target's results are counted in: one row, or of half the points that are claimed and
+    /// then the others.
+    std::vector<CornerRow> blank(const std::string& target) const
+    {
+        CornerRow row;
+        row.function = inputs_.entry().name;
+        row.target = target;
+        row.precision = subject_.precision;
+        if (subject_.precision == emit::Precision::float32) return {row};
+        std::vector<CornerRow> rows;
+        if (std::ranges::find(claimed_, true) != claimed_.end()) {
+            row.claim = claim_;
+            rows.push_back(row);
+        }
+        if (rows.empty() || std::ranges::find(claimed_, false) != claimed_.end()) {
+            row.required = false;
+            row.claim = why_not_;
+            rows.push_back(row);
+        }
+        return rows;
+    }
+
+    std::vector<CornerRow> evaluator() const
     {
         const evaluate::Tape tape = evaluate::compile(*subject_.module, inputs_.entry());
-        const std::string key =
-            fmt::format("corners 1 evaluator {} {:x} {}\n{}", static_cast<int>(subject_.precision),
-                        hash_, points_.size(), evaluate::dump(tape));
-        return kept_row(row("evaluator"), key, [&](CornerRow& out) {
+        const std::string key = fmt::format("corners 2 evaluator {} {:x} {} {}\n{}",
+                                            static_cast<int>(subject_.precision), hash_,
+                                            points_.size(), claim_, evaluate::dump(tape));
+        return kept_rows(blank("evaluator"), key, [&](Counts& counts) -> std::string {
             const std::vector<const float*> inputs = heads(points_.columns);
             const std::size_t components = tape.outputs.size();
             std::vector<std::vector<float>> columns(components, std::vector<float>(points_.size()));
             const std::vector<float*> outputs = heads(columns);
             std::vector<float> results(components * points_.size());
-            Count count;
             const auto gather = [&] {
                 for (std::size_t k = 0; k < components; ++k)
                     for (std::size_t i = 0; i < points_.size(); ++i)
                         results[i * components + k] = columns[k][i];
-                note(out, count, results, components);
+                note(counts, results, components);
             };
             if (subject_.precision == emit::Precision::float32) {
                 evaluate::run(tape, evaluate::Columns<float>{inputs},
                               evaluate::Results<float>{outputs}, points_.size());
                 gather();
-                return;
+                return {};
             }
             for (const HalfMode mode : {HalfMode::keep_denormals, HalfMode::flush_denormals}) {
                 evaluate::run_half(tape, mode, inputs, outputs, points_.size());
                 gather();
             }
+            return {};
         });
     }
 
-    CornerRow on_device(const emit::Target& target) const
+    std::vector<CornerRow> on_device(const emit::Target& target) const
     {
         const emit::Harness harness =
             subject_.bxdf != nullptr ? subject_.bxdf->harness
                                      : emit::harness(*subject_.module, sources_, subject_.function,
                                                      target, subject_.precision);
-        const std::string key =
-            fmt::format("corners 1 {} {} {:x} {}\n{}", device_->facts().name,
-                        device_->facts().driver, hash_, points_.size(), harness.artifact.text);
-        return kept_row(row(target.name), key, [&](CornerRow& out) {
+        const std::string key = fmt::format("corners 2 {} {} {:x} {} {}\n{}", device_->facts().name,
+                                            device_->facts().driver, hash_, points_.size(), claim_,
+                                            harness.artifact.text);
+        return kept_rows(blank(target.name), key, [&](Counts& counts) -> std::string {
             const auto direct = spirv_of(harness.artifact.text, target, harness.entry);
-            if (direct.empty()) {
-                out.failure = "a judge refused it";
-                return;
-            }
+            if (direct.empty()) return "a judge refused it";
             const verify::Verdict optimized = verify::optimize(direct);
-            if (!optimized.accepted) {
-                out.failure = "spirv-opt refused it";
-                return;
-            }
-            Count count;
+            if (!optimized.accepted) return "spirv-opt refused it";
             std::vector<float> results;
             for (const auto* spirv : {&direct, &optimized.spirv}) {
                 if (const auto why =
-                        execute(*device_, input_, points_.size(), harness, *spirv, results)) {
-                    out.failure = *why;
-                    return;
-                }
-                note(out, count, results, static_cast<std::size_t>(harness.outputs));
+                        execute(*device_, input_, points_.size(), harness, *spirv, results))
+                    return *why;
+                note(counts, results, static_cast<std::size_t>(harness.outputs));
             }
+            return {};
         });
     }
 
-    /// Adds one run over all points to a row.
-    void note(CornerRow& out, Count& count, std::span<const float> results,
-              std::size_t components) const
+    struct Counts {
+        Count claimed;  ///< of half
+        Count others;
+    };
+
+    /// Adds one run over all points: the components of point 0, of point 1, …
+    void note(Counts& counts, std::span<const float> results, std::size_t components) const
     {
-        const bool had = count.example && std::isnan(count.value);
-        count.add(results, components);
-        out.points += points_.size();
-        out.not_a_number = count.not_a_number;
-        out.infinite = count.infinite;
-        if (!count.example || had) return;
-        // The sign of a NaN says nothing.
-        out.example =
-            fmt::format("{} at {}", std::isnan(count.value) ? NAN : count.value,
-                        describe_inputs(inputs_.entry(), points_, *count.example / components));
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            (is_claimed(i) ? counts.claimed : counts.others)
+                .add(i, results.subspan(i * components, components));
     }
 
-    /// Counts, failure and example of a row, kept between runs.
+    /// Counts, failure and example of the rows, kept between runs. `make` counts, and says why it
+    /// could not.
     template <class Make>
-    CornerRow kept_row(CornerRow out, const std::string& key, const Make& make) const
+    std::vector<CornerRow> kept_rows(std::vector<CornerRow> rows, const std::string& key,
+                                     const Make& make) const
     {
         const std::string text = kept(store_, key, [&] {
-            make(out);
-            std::string line;
-            write_line(line, out.points, out.not_a_number, out.infinite, out.example,
-                       one_line(out.failure));
-            return line;
+            Counts counts;
+            const std::string failure = one_line(make(counts));
+            std::string lines;
+            for (const CornerRow& row : rows) {
+                const bool is_claim = row.required && !claimed_.empty();
+                const Count& count = is_claim ? counts.claimed : counts.others;
+                write_line(lines, count.results, count.not_a_number, count.infinite, example(count),
+                           failure);
+            }
+            return lines;
         });
         LineReader read{text};
-        read(out.points);
-        read(out.not_a_number);
-        read(out.infinite);
-        read(out.example);
-        read(out.failure);
-        return out;
+        for (CornerRow& row : rows) {
+            read(row.points);
+            read(row.not_a_number);
+            read(row.infinite);
+            read(row.example);
+            read(row.failure);
+        }
+        return rows;
+    }
+
+    std::string example(const Count& count) const
+    {
+        if (!count.example) return {};
+        // The sign of a NaN says nothing.
+        return fmt::format("{} at {}", std::isnan(count.value) ? NAN : count.value,
+                           describe_inputs(inputs_.entry(), points_, *count.example));
     }
 
     /// A driver's message may have several.
@@ -221,6 +255,9 @@ private:
     Points points_;
     std::vector<float> input_;
     std::uint64_t hash_ = 0;
+    std::vector<bool> claimed_;  ///< by point, of half that is proved in a box; else empty
+    std::string claim_;          ///< that box
+    std::string why_not_;        ///< the other points are not claimed
 };
 
 std::vector<Subject> subjects_of(const ir::Module& module,

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -37,6 +38,16 @@ struct CornerRow {
     std::string example;   ///< inputs and result of one
     std::string failure;   ///< why it could not run
     bool required = true;  ///< false: half, where no proof claims it
+    /// Of half. Required: the box of which it is proved; a point counts whose fields are in it,
+    /// whatever a device makes of them. Not required: why not; empty if nobody asked for proofs.
+    std::string claim;
+};
+
+/// What proofs say of a function's half: finite in a box, or why they refuse.
+struct HalfClaim {
+    std::string function;
+    std::optional<NamedBox> over;
+    std::string refused;
 };
 
 struct CornerOptions {
@@ -46,11 +57,13 @@ struct CornerOptions {
     bool continuity = true;
     unsigned jobs = 0;
     std::vector<std::pair<std::string, NamedBox>> open;  ///< of proofs, by function
+    std::vector<HalfClaim> half;                         ///< of proofs
     std::function<void(const Progress&)> progress;
 };
 
 struct Corners {
-    std::vector<CornerRow> rows;         ///< by function, precision, target
+    /// By function, precision, target; of half, what is claimed before what is not.
+    std::vector<CornerRow> rows;
     std::vector<Continuity> continuity;  ///< by function and boundary
     std::string device;
     std::string no_device;

@@ -1,6 +1,7 @@
 // The points of the corner suite: directions and values, each at and next to their boundaries.
 #include "analyze/corners/corners.h"
 #include "analyze/corners/directions.h"
+#include "analyze/corners/fields.h"
 #include "analyze/random.h"
 
 #include <algorithm>
@@ -152,10 +153,12 @@ private:
         }
     }
 
-    /// Ends and middles of the sides that the entry point has inputs for.
+    /// Ends and middles of the sides that the entry point has inputs for, with directions whose
+    /// fields may be in the others; where none are, with the core ones.
     void add_box(const NamedBox& box)
     {
         constexpr std::size_t most = 81;
+        const std::vector<Directional> directions = directions_in(box);
         for (std::size_t i = 0; i < most; ++i) {
             Random random{i};
             Values values = inputs_.neutral();
@@ -167,8 +170,38 @@ private:
                     const std::array choices{low, low / 2 + high / 2, high};
                     values[c] = choices[random.below(3)];
                 }
-            add_all(core_, values);
+            add_all(directions, values);
         }
+    }
+
+    std::vector<Directional> directions_in(const NamedBox& box) const
+    {
+        Points candidates;
+        candidates.names = inputs_.names();
+        candidates.columns.resize(inputs_.columns());
+        for (const Directional& at : all_) {
+            Values values = inputs_.neutral();
+            inputs_.place(values, at);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                candidates.columns[i].push_back(to_grid(values[i], grid_.precision));
+            candidates.cases.emplace_back();
+        }
+        NamedBox fields;
+        for (const auto& side : box.sides)
+            if (std::ranges::find(inputs_.fields(), side.first, &EntryInputs::Field::name) !=
+                inputs_.fields().end())
+                fields.sides.push_back(side);
+        const std::vector<bool> is_in =
+            inside(inputs_, candidates, grid_.precision, fields, Inside::possibly);
+        std::vector<Directional> found;
+        for (std::size_t i = 0; i < all_.size(); ++i)
+            if (is_in[i]) found.push_back(all_[i]);
+        if (found.empty()) return core_;
+        // As many as the core ones, spread over all that were found.
+        const std::size_t step = (found.size() + core_.size() - 1) / core_.size();
+        std::vector<Directional> some;
+        for (std::size_t i = 0; i < found.size(); i += step) some.push_back(found[i]);
+        return some;
     }
 
     void add_all(const std::vector<Directional>& directions, const Values& values)
