@@ -17,7 +17,12 @@ constexpr double nothing = -std::numeric_limits<double>::infinity();
 
 /// Points whose hazards are candidates for a witness, per hazard: the worst ones.
 constexpr std::size_t candidates_kept = 4;
-constexpr int climbing_steps = 256;
+
+/// Steps of climbing for each expression of a line of `usual_length` instructions or less. Longer
+/// lines have more to climb and take longer for a step: they get fewer, so that no function takes
+/// much more time than another.
+constexpr std::size_t climbing_steps = 256;
+constexpr std::size_t usual_length = 128;
 
 void read(const Points& points, std::size_t index, Point& point)
 {
@@ -181,7 +186,8 @@ private:
         Start here = starts_[is_sum ? 1 : 0][group];
         if (tally.count > 0 || !tally.worst.empty() || here.height == nothing) return;
         Random random{group};
-        for (int step = 0; step < climbing_steps; ++step) {
+        const std::size_t length = std::max(line_.tape.code.size(), usual_length);
+        for (std::size_t step = 0; step < climbing_steps * usual_length / length; ++step) {
             const Point next = space_.neighbor(here.point, random);
             const bool wrong = run_at(next);
             trace_.find_demand();
