@@ -100,6 +100,7 @@ ordered_json to_json(const Specialization& of)
         {"cost_unit", of.variants.no_statistics.empty() ? "issue cycles" : "SPIR-V instructions"},
         {"per_pixel", json_number(of.variants.cycles)},
         {"general", cost_json(of.variants.general)},
+        {"priced", of.variants.candidates},
         {"proved_cheapest", of.variants.is_proved},
         {"shaders", std::move(shaders)},
         {"frontier", std::move(frontier)},
