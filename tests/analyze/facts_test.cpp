@@ -421,6 +421,7 @@ TEST_CASE("a scene without a lit material is refused")
     const auto mixed = found(scene_of({sign, plain("a")}));
     REQUIRE(mixed.facts);
     CHECK(mixed.facts->materials.size() == 1);
+    CHECK(mixed.facts->materials[0].coverage == 1);
 }
 
 TEST_CASE("lights are counted by kind")

@@ -46,21 +46,22 @@ public:
         // The format's default material stands in no file; where nothing shows it there is none.
         if (scene_.instances.empty())
             std::erase_if(shown, [this](std::size_t m) { return is_default(m); });
+        const std::size_t before = shown.size();
+        std::erase_if(shown, [this](std::size_t m) {
+            const scene::Material& material = scene_.materials[m];
+            if (material.is_unlit) note_once("KHR_materials_unlit", material);
+            return material.is_unlit;
+        });
         const std::vector<double> areas = scene_.coverage();
         double all = 0;
         for (const std::size_t index : shown) all += areas[index];
-        for (const std::size_t index : shown) {
-            if (scene_.materials[index].is_unlit) {
-                note_once("KHR_materials_unlit", scene_.materials[index]);
-                continue;
-            }
+        for (const std::size_t index : shown)
             add(index, all > 0 ? areas[index] / all : 1.0 / static_cast<double>(shown.size()));
-        }
         if (facts_.materials.empty() && errors_.empty())
             errors_.push_back({true, "", "no material to shade",
-                               shown.empty() ? "the scene has no materials, and no primitive "
-                                               "that shows the format's default one"
-                                             : "all of them are KHR_materials_unlit"});
+                               before == 0 ? "the scene has no materials, and no primitive "
+                                             "that shows the format's default one"
+                                           : "all of them are KHR_materials_unlit"});
         FoundFacts out;
         const bool ok = errors_.empty();
         if (errors_.size() > most_complaints) {
