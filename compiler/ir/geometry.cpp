@@ -230,9 +230,8 @@ public:
     {
         if (!frame_.has_sum || frame_.bare) return cosine(frame_.v, frame_.l);
         return graph_.apply(
-            Op::minimum,
-            {graph_.apply(Op::subtract, {times("0.5", squared_length()), number("1")}),
-             number("1")});
+            Op::minimum, {graph_.apply(Op::subtract, {times("0.5", squared_length()), number("1")}),
+                          number("1")});
     }
 
     /// |l - v|^2 / (4 (1 + cos_d))
