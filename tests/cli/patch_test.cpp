@@ -373,7 +373,7 @@ TEST_CASE("what is wrong with the command itself is exit 2", "[patch]")
     CHECK_THAT(refuses(place, "--apply --revert", 2), Contains(exclusive));
     CHECK_THAT(refuses(place, "--apply --check", 2), Contains(exclusive));
     CHECK_THAT(refuses(place, "--revert -o out.patch", 2), Contains(exclusive));
-    CHECK_THAT(refuses(place, "-o - --json -", 2), Contains("only one of -o and --json"));
+    CHECK_THAT(refuses(place, "-o - --json -", 2), Contains("only one of -o, --json"));
     CHECK_THAT(refuses(place, "--model Nose", 2),
                Contains("skin.lobe has no shading model `Nose`; it has Skin"));
     CHECK(place.patch("--model Skin --check -q").status == 1);

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <functional>
+#include <string_view>
 
 namespace lobe::tests {
 namespace {
@@ -60,7 +61,12 @@ TEST_CASE("distributions project to the whole surface")
                 return d;
             });
             CHECK(integral.error < 1e-6);
-            CHECK(std::abs(integral.value - 1) <= integral.error);
+            // Near 1 the logarithm of Blinn's power is another by 2^-31 (optimize/near_one.cpp):
+            // of at most y log(16 / 15) there.
+            const bool is_power = std::string_view{term} == "D_BlinnPhong";
+            const double exponent = is_power ? 2 / (alpha * alpha) - 2 : 0;
+            const double near_one = 0x1p-31 * exponent * std::log(16.0 / 15);
+            CHECK(std::abs(integral.value - 1) <= integral.error + near_one);
         }
 }
 

@@ -22,10 +22,15 @@ struct Formula {
     std::vector<std::pair<std::string, std::string>> inputs;
     /// Results the doubles of the inputs cannot hold better, see the entries.
     Tolerance double_tolerance{1e-12, 0};
+    double changed = 0;  ///< by the passes, over the reals, relative
 };
 
 // Below the smallest normal double the result is a denormal or 0.
 constexpr Tolerance underflowing{1e-12, 0x1p-1022};
+// The logarithm of a cosine near 1 is another by 2^-31 (optimize/near_one.cpp). The narrowest lobe
+// that a row has near 1, roughness 0.3 at cos_h 0.999, is 1/4 of a logarithm below its peak.
+constexpr double near_one = 0x1p-33;
+constexpr Tolerance near_one_in_double{1e-12 + near_one, 0x1p-1022};
 
 const std::vector<std::pair<std::string, std::string>> of_h{{"roughness", "alpha"},
                                                             {"NoH", "cos_h"}};
@@ -41,7 +46,7 @@ const std::vector<std::pair<std::string, std::string>> of_view{{"roughness", "ro
                                                                {"NoV", "cos_o"}};
 
 const std::vector<Formula> formulas{
-    {"D_Blinn", "", 23, "microfacet", "D_BlinnPhong", of_h, underflowing},
+    {"D_Blinn", "", 23, "microfacet", "D_BlinnPhong", of_h, near_one_in_double, near_one},
     {"D_Beckmann", "", 23, "microfacet", "D_Beckmann", of_h, underflowing},
     {"D_GGX", "", 23, "microfacet", "D_GGX", of_h},
     {"D_GGXaniso",
@@ -259,7 +264,7 @@ TEST_CASE("the passes keep what terms mean")
 {
     for (const Formula& formula : formulas)
         compare(formula, optimized(formula.model), "mpfr:200",
-                {printed, formula.name == "F_CookTorrance" ? 1e-79 : 0});
+                {printed + formula.changed, formula.name == "F_CookTorrance" ? 1e-79 : 0});
 }
 
 namespace {
