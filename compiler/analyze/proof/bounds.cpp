@@ -142,9 +142,11 @@ double Division::doubt() const
         const bool has_sign = value.exact.low >= 0 || value.exact.high <= 0;
         if (!has_sign || !(high < evaluate::infinity))
             total += most;
+        else if (std::min(one, other) > 0)
+            total += std::min(std::log2(high / std::min(one, other)), most);
         else if (high > 0)
-            total +=
-                std::min(std::log2(high / std::max(std::min(one, other), high * 0x1p-60)), most);
+            // The less the nearer to 0, by little: other sides come first while they are wide.
+            total += most + std::max(std::log2(high) / 16, -8.0);
         total += value.relative < 1 ? std::max(std::log2(value.relative) + 24, 0.0) : most;
     }
     return total;
