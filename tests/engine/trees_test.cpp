@@ -261,9 +261,8 @@ TEST_CASE("what stands in the way is named")
         const Files taken =
             with(tree, common, number, "#define SHADINGMODELID_CALLISTO 11\n" + number);
         CHECK(has(refused(taken, plain()), "the tree has a shading model of this name"));
-        CHECK(has(
-            refused(with(tree, types, "	MSM_Cloth	", "	MSM_Callisto	"), plain()),
-            "the engine has a shading model of this name"));
+        CHECK(has(refused(with(tree, types, "	MSM_Cloth	", "	MSM_Callisto	"), plain()),
+                  "the engine has a shading model of this name"));
     }
     SECTION("the mask holds fewer")
     {

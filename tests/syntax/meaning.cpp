@@ -138,9 +138,8 @@ public:
     }
     std::string read(const ModelItem& node) const
     {
-        std::string text =
-            fmt::format("{} {} {} {}", node.is_light ? "light" : "model", node.name.text,
-                        read(node.parameters), read(node.lets));
+        std::string text = fmt::format("{} {} {} {}", node.is_light ? "light" : "model",
+                                       node.name.text, read(node.parameters), read(node.lets));
         for (const Output& output : node.outputs)
             text += fmt::format("{} = {}; ", output.name.text, read(output.value));
         return text;
