@@ -406,9 +406,9 @@ std::vector<Proof> proofs(const ir::Module& module, const ProofOptions& options,
 std::vector<Proof> proofs_of(const ir::Module& module, const std::vector<ir::FunctionId>& functions,
                              const ProofOptions& options, const Store& store)
 {
-    std::vector<ir::Function> wanted;
-    for (const ir::FunctionId id : functions) wanted.push_back(module[id]);
-    return prove(module, wanted, options, store);
+    std::vector<ir::Function> chosen;
+    for (const ir::FunctionId id : functions) chosen.push_back(module[id]);
+    return prove(module, chosen, options, store);
 }
 
 std::vector<Proof> field_proofs(const ir::Module& module, const ProofOptions& options,
@@ -420,7 +420,7 @@ std::vector<Proof> field_proofs(const ir::Module& module, const ProofOptions& op
             if (input.origin == ir::Origin::geometry)
                 fields.push_back(static_cast<ir::GeometryField>(input.which));
     std::ranges::sort(fields);
-    fields.erase(std::ranges::unique(fields).begin(), fields.end());
+    fields.erase(std::unique(fields.begin(), fields.end()), fields.end());
     std::vector<ir::Function> functions;
     for (const ir::GeometryField field : fields)
         if (ir::facts(field).type == ir::Type::scalar) functions.push_back(field_function(field));
