@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string>
@@ -153,12 +154,22 @@ private:
     void read_attributes(const View& attributes, Mesh& mesh) const
     {
         mesh.positions = vectors<3>(attributes, "POSITION", Kind::position);
-        if (!options_.geometry) return;
+        mesh.has_tangents = attributes_.contains("TANGENT");
+        mesh.colors = vectors<4>(attributes, "COLOR_0", Kind::color);
+        for (std::size_t row = 0; row < 3 && !mesh.colors.empty(); ++row) {
+            const auto [least, greatest] = std::ranges::minmax(
+                mesh.colors, {}, [row](const std::array<float, 4>& color) { return color[row]; });
+            mesh.least_color[row] = least[row];
+            mesh.greatest_color[row] = greatest[row];
+        }
+        if (!options_.geometry) {
+            mesh.colors.clear();
+            return;
+        }
         mesh.normals = vectors<3>(attributes, "NORMAL", Kind::direction);
         mesh.tangents = vectors<4>(attributes, "TANGENT", Kind::direction);
         mesh.coordinates[0] = vectors<2>(attributes, "TEXCOORD_0", Kind::coordinates);
         mesh.coordinates[1] = vectors<2>(attributes, "TEXCOORD_1", Kind::coordinates);
-        mesh.colors = vectors<4>(attributes, "COLOR_0", Kind::color);
     }
 
     /// What triangles index, all below the number of vertices. Nothing after a complaint.

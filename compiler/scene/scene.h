@@ -164,7 +164,11 @@ struct Mesh {
     std::vector<std::array<float, 4>>
         colors;                            ///< COLOR_0, linear; empty: none. Base color times it
     std::vector<std::uint32_t> triangles;  ///< three per triangle; empty for points and lines
-    std::size_t material = 0;              ///< index into Scene::materials
+    /// What the attributes hold, known without them too (ReadOptions::geometry).
+    bool has_tangents = false;
+    Vector3 least_color{1, 1, 1};  ///< of COLOR_0's vertices; 1 where there is none
+    Vector3 greatest_color{1, 1, 1};
+    std::size_t material = 0;  ///< index into Scene::materials
 };
 
 struct Instance {

@@ -156,6 +156,24 @@ TEST_CASE("colors of three components are opaque")
           std::vector<std::array<float, 4>>(4, {1, 1, 1, 1}));
 }
 
+TEST_CASE("what colors of vertices hold is known without the colors")
+{
+    json document = with_positions(square);
+    const auto first = read(document, {}, {.geometry = false});
+    REQUIRE(first.scene);
+    CHECK(first.scene->meshes[0].least_color == scene::Vector3{1, 1, 1});
+    const std::vector<std::uint8_t> bytes{0, 51, 255, 102, 51, 255, 51, 255, 255, 0, 0, 255};
+    primitive(document)["attributes"]["COLOR_0"] =
+        add_accessor(document, pack<std::uint8_t>(bytes), 5121, "VEC3", 4, true);
+    const auto result = read(document, {}, {.geometry = false});
+    REQUIRE(result.scene);
+    const scene::Mesh& mesh = result.scene->meshes[0];
+    CHECK(mesh.colors.empty());
+    CHECK(mesh.least_color == scene::Vector3{0, 0, 1});
+    CHECK(mesh.greatest_color == scene::Vector3{0.4F, 1, 1});
+    CHECK_FALSE(mesh.has_tangents);
+}
+
 TEST_CASE("nodes nest: moved, turned and scaled, or by a matrix")
 {
     json document = with_positions(square);
