@@ -40,10 +40,11 @@ struct LadderCommand {
         std::vector<analyze::LadderScene> rungs;
         bool complete = true;
         for (const std::string& path : scenes) {
-            auto facts = read_facts(terminal, path, file);
-            complete = complete && facts;
-            if (facts)
-                rungs.push_back({std::filesystem::path{path}.stem().string(), std::move(*facts)});
+            auto read = read_facts(terminal, path, file);
+            complete = complete && read;
+            if (read)
+                rungs.push_back(
+                    {std::filesystem::path{path}.stem().string(), std::move(read->facts)});
         }
         if (!complete) return broken;
         const analyze::Ladder ladder = measure(terminal, file, rungs, others);

@@ -4,6 +4,7 @@
 #include "cli/commands.h"
 #include "cli/outputs.h"
 #include "cli/scene_file.h"
+#include "compile.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,17 +24,21 @@ struct SceneCommand {
         std::vector<Output> outputs{{"--json", json}};
         const ModelFile file = load_model(terminal, model);
         if (file.status != success) return file.status;
+        const ir::Module optimized = middle(file.module());
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
         int status = success;
         for (const std::string& path : scenes) {
-            const auto facts = read_facts(terminal, path, file);
-            if (!facts) {
+            const auto read = read_facts(terminal, path, file);
+            if (!read) {
                 status = broken;
                 continue;
             }
-            if (!is_piped(outputs) && !terminal.quiet) show(terminal, path, file, *facts);
+            const auto layered = analyze::layered_materials(read->scene, optimized, file.model);
+            if (!is_piped(outputs) && !terminal.quiet)
+                show(terminal, path, file, read->facts, layered);
             nlohmann::ordered_json each{{"scene", path}, {"module", file.module().name}};
-            each.update(report::to_json(*facts));
+            each.update(report::to_json(read->facts));
+            each["layered"] = report::to_json(layered);
             all.push_back(std::move(each));
         }
         if (status != success) return status;
@@ -43,13 +48,14 @@ struct SceneCommand {
     }
 
     void show(const Terminal& terminal, const std::string& path, const ModelFile& file,
-              const analyze::SceneFacts& facts) const
+              const analyze::SceneFacts& facts, const analyze::LayeredMaterials& layered) const
     {
         const report::Look look{terminal.color_on_stdout(), terminal.width()};
-        fmt::print("{}{}: {} material{} under model {} of {}\n\n{}",
+        const std::string of_layers = report::to_text(layered, look);
+        fmt::print("{}{}: {} material{} under model {} of {}\n\n{}{}{}",
                    path == scenes.front() ? "" : "\n", path, facts.materials.size(),
                    facts.materials.size() == 1 ? "" : "s", file.model, file.module().name,
-                   report::to_text(facts, look));
+                   report::to_text(facts, look), of_layers.empty() ? "" : "\n", of_layers);
     }
 };
 

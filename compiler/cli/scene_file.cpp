@@ -65,17 +65,18 @@ std::optional<scene::Scene> read_scene(const Terminal& terminal, const std::stri
     return std::move(result.scene);
 }
 
-std::optional<analyze::SceneFacts> read_facts(const Terminal& terminal, const std::string& path,
-                                              const ModelFile& model)
+std::optional<SceneUnderModel> read_facts(const Terminal& terminal, const std::string& path,
+                                          const ModelFile& model)
 {
     scene::ReadOptions options;
     options.geometry = false;
     options.keep_pixels = false;
-    const auto scene = read_scene(terminal, path, options);
+    auto scene = read_scene(terminal, path, options);
     if (!scene) return std::nullopt;
     analyze::FoundFacts found = analyze::find_facts(*scene, model.module(), model.model);
     print(terminal, path, found.complaints);
-    return std::move(found.facts);
+    if (!found.facts) return std::nullopt;
+    return SceneUnderModel{*std::move(scene), *std::move(found.facts)};
 }
 
 void print(const Terminal& terminal, const std::string& path,

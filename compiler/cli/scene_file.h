@@ -33,9 +33,15 @@ ModelFile load_model(const Terminal& terminal, const std::string& file, const st
 std::optional<scene::Scene> read_scene(const Terminal& terminal, const std::string& path,
                                        const scene::ReadOptions& options);
 
-/// What a scene without its pixels and vertices says about a model. What is wrong is printed.
-std::optional<analyze::SceneFacts> read_facts(const Terminal& terminal, const std::string& path,
-                                              const ModelFile& model);
+/// A scene without its pixels and vertices, and what it says about a model.
+struct SceneUnderModel {
+    scene::Scene scene;
+    analyze::SceneFacts facts;
+};
+
+/// What is wrong is printed.
+std::optional<SceneUnderModel> read_facts(const Terminal& terminal, const std::string& path,
+                                          const ModelFile& model);
 
 /// `S.gltf#/materials/3: error: …` to stderr, one line each, and a line of help where there is one.
 void print(const Terminal& terminal, const std::string& path,

@@ -84,11 +84,12 @@ struct Specialize {
         const ModelFile file = load_model(terminal, input, model);
         if (file.status != success) return file.status;
         phases.done("model");
-        auto facts = read_facts(terminal, scene, file);
-        if (!facts) return broken;
+        auto read = read_facts(terminal, scene, file);
+        if (!read) return broken;
         phases.done("scene");
         if (per_material)
-            if (const std::size_t kinds = analyze::by_facts(*facts).size(); kinds > most_shaders)
+            if (const std::size_t kinds = analyze::by_facts(read->facts).size();
+                kinds > most_shaders)
                 return fail(terminal, fmt::format("--per-material would make {} shaders; it makes "
                                                   "at most {}. `--variants` takes any number of "
                                                   "materials",
@@ -98,7 +99,7 @@ struct Specialize {
         report::Specialization result;
         {
             Progress progress{terminal};
-            result = specialized(file, std::move(*facts), *epsilon, store, progress, phases);
+            result = specialized(file, std::move(read->facts), *epsilon, store, progress, phases);
         }
         std::vector<OutputFile> files = emitted(file, result);
         phases.done("files");

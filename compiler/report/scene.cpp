@@ -1,5 +1,6 @@
 #include "report/scene.h"
 
+#include "analyze/residual/reach.h"
 #include "report/markup.h"
 
 #include <fmt/format.h>
@@ -36,7 +37,8 @@ std::string in_words(const InputFact& fact)
     ir::Range all = fact.components.front();
     for (const ir::Range& range : fact.components)
         all = {std::min(all.low, range.low), std::max(all.high, range.high)};
-    return fmt::format("{} .. {}", number(all.low), number(all.high));
+    all = analyze::in_digits(all);
+    return fmt::format("{} .. {}", all.low, all.high);
 }
 
 std::string percent_of(double share) { return fmt::format("{:.3g} %", 100 * share); }
@@ -242,6 +244,68 @@ ordered_json to_json(const SceneFacts& facts)
             {"double_sided", facts.double_sided},
             {"layers", facts.has_layers},
             {"not_modeled", facts.not_modeled}};
+}
+
+Table layer_table(const analyze::LayeredMaterials& layered)
+{
+    Table table{{{"layered material"},
+                 {"layers", true},
+                 {"median", true},
+                 {"of 95 %", true},
+                 {"worst", true},
+                 {"blend and shade once?"}},
+                {}};
+    for (const analyze::LayeredMaterial& material : layered.measured) {
+        const bool enough = material.one_shading_is_enough();
+        table.rows.push_back({{material.name, Style::strong},
+                              {grouped(material.layers)},
+                              {percent_of(material.error.typical)},
+                              {percent_of(material.error.often)},
+                              {percent_of(material.error.worst)},
+                              {enough ? "one shading is enough" : "it shows: shade every layer",
+                               enough ? Style::good : Style::plain}});
+    }
+    return table;
+}
+
+std::string to_text(const analyze::LayeredMaterials& layered, const Look& look)
+{
+    if (layered.measured.empty()) return "";
+    std::string out = render(layer_table(layered), look);
+    for (const analyze::LayeredMaterial& material : layered.measured) {
+        std::string inputs;
+        for (const auto& [input, value] : material.error.witness.inputs)
+            inputs += fmt::format("{}{} {}", inputs.empty() ? "" : ", ", input, number(value));
+        out += fmt::format("worst of {}: {} shaded by layers, {} at once, at {}\n", material.name,
+                           number(material.error.witness.exact),
+                           number(material.error.witness.packed), inputs);
+    }
+    if (layered.not_measured > 0)
+        out += fmt::format("{} more layered materials were not measured\n",
+                           grouped(layered.not_measured));
+    return out;
+}
+
+ordered_json to_json(const analyze::LayeredMaterials& layered)
+{
+    ordered_json materials = ordered_json::array();
+    for (const analyze::LayeredMaterial& material : layered.measured) {
+        const analyze::RadianceError& error = material.error;
+        ordered_json inputs = ordered_json::object();
+        for (const auto& [input, value] : error.witness.inputs) inputs[input] = json_number(value);
+        materials.push_back({{"material", material.material},
+                             {"name", material.name},
+                             {"layers", material.layers},
+                             {"one_shading_is_enough", material.one_shading_is_enough()},
+                             {"median", json_number(error.typical)},
+                             {"of_95_percent", json_number(error.often)},
+                             {"worst", json_number(error.worst)},
+                             {"witness",
+                              {{"inputs", std::move(inputs)},
+                               {"shaded_by_layers", json_number(error.witness.exact)},
+                               {"shaded_once", json_number(error.witness.packed)}}}});
+    }
+    return {{"measured", std::move(materials)}, {"not_measured", layered.not_measured}};
 }
 
 }  // namespace lobe::report

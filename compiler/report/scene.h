@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analyze/residual/facts.h"
+#include "analyze/residual/layers.h"
 #include "report/table.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -22,6 +23,12 @@ std::string surroundings(const analyze::SceneFacts& facts);
 
 std::string to_text(const analyze::SceneFacts& facts, const Look& look);
 nlohmann::ordered_json to_json(const analyze::SceneFacts& facts);
+
+/// One row per layered material: what shading a blend of its parameters is off by, and where.
+Table layer_table(const analyze::LayeredMaterials& layered);
+/// The table and what it means; empty where there are no layers.
+std::string to_text(const analyze::LayeredMaterials& layered, const Look& look);
+nlohmann::ordered_json to_json(const analyze::LayeredMaterials& layered);
 
 /// `directional`
 std::string_view name(scene::Light::Kind kind);

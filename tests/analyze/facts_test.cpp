@@ -2,6 +2,7 @@
 // it is constant, and wrong values are told where they stand.
 #include "analyze/checked.h"
 #include "analyze/residual/facts.h"
+#include "analyze/residual/reach.h"
 #include "analyze/scenes.h"
 
 #include <catch2/catch.hpp>
@@ -246,6 +247,79 @@ TEST_CASE("a texture gives the range of its texels times the factor")
     }
 }
 
+namespace {
+
+/// Shown by a mesh whose vertices have colors between these.
+scene::Scene shown_with(scene::Material material, const scene::Vector3& least,
+                        const scene::Vector3& greatest)
+{
+    scene::Scene scene = scene_of({std::move(material)});
+    scene::Mesh mesh;
+    mesh.pointer = "/meshes/0/primitives/0";
+    mesh.least_color = least;
+    mesh.greatest_color = greatest;
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back({0, {}, 1});
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("colors of vertices multiply the base color")
+{
+    scene::Material white = plain("white");
+    white.base_color = constant({1, 1, 1, 1});
+    const SceneFacts plain_white = facts_of(shown_with(white, {1, 1, 1}, {1, 1, 1}));
+    CHECK(plain_white.called().constants.contains("diffuse_color"));
+
+    const SceneFacts facts = facts_of(shown_with(white, {0.25F, 0.5F, 1}, {0.5F, 0.5F, 1}));
+    const InputFact& color = facts.materials[0].inputs.at("diffuse_color");
+    // One number, and what rounding in a shader can make of a range.
+    CHECK(color.components[1] == ir::Range{0.5, 0.5});
+    CHECK(color.components[2] == ir::Range{1, 1});
+    CHECK(color.components[0].low <= 0.25);
+    CHECK(color.components[0].high >= 0.5);
+    CHECK(color.components[0].high < 0.5 * (1 + 0x1p-20));
+    CHECK_FALSE(facts.called().constants.contains("diffuse_color"));
+    CHECK(facts.called().ranges.at("diffuse_color").low <= 0.25);
+
+    // A second mesh without colors shows the material as it is.
+    scene::Scene both = shown_with(white, {0.25F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F});
+    both.meshes.emplace_back();
+    both.instances.push_back({1, {}, 1});
+    CHECK(range_of(facts_of(both), "diffuse_color").high == 1);
+
+    scene::Material unset = plain("unset");
+    unset.base_color.is_given = false;
+    const SceneFacts named = facts_of(shown_with(unset, {0, 0, 0}, {1, 1, 1}));
+    CHECK(named.materials[0].inputs.at("diffuse_color").called_by ==
+          "/meshes/0/primitives/0/attributes/COLOR_0");
+}
+
+TEST_CASE("float products with colors of vertices lie in the ranges")
+{
+    std::mt19937 random{3};
+    std::uniform_real_distribution<float> unit{0, 1};
+    for (int trial = 0; trial < 2000; ++trial) {
+        const double factor = static_cast<double>(unit(random));
+        const float texel = unit(random);
+        const float low = unit(random);
+        const float high = low + (1 - low) * unit(random);
+        scene::Material material = plain("m");
+        material.base_color = textured(constant({factor, factor, factor, 1}), 0);
+        scene::Scene scene = shown_with(material, {low, low, low}, {high, high, high});
+        scene.images.push_back(image_of({0.5F * texel, texel}));
+        const ir::Range range = range_of(facts_of(scene), "diffuse_color");
+        for (const float color : {low, high})
+            for (const float t : {0.5F * texel, texel}) {
+                const float value = static_cast<float>(factor) * t * color;
+                CAPTURE(factor, t, color, range.low, range.high);
+                REQUIRE(static_cast<double>(value) >= range.low);
+                REQUIRE(static_cast<double>(value) <= range.high);
+            }
+    }
+}
+
 TEST_CASE("a mask of 0 and 1 is binary where no filter blends its texels")
 {
     const auto metallic = [](const std::vector<float>& texels, bool is_filtered, double factor) {
@@ -354,6 +428,56 @@ TEST_CASE("a layered material is whatever a blend of its layers can be")
     CHECK(range_of(facts, "f0").high >= 0.27);
     CHECK_FALSE(facts.materials[0].inputs.at("metallic").is_binary);
     CHECK(facts.materials[0].calls[0]);
+}
+
+TEST_CASE("layers of layers are part of the blend, and of its colors")
+{
+    scene::Material ground = plain("ground");
+    scene::Material snow = plain("snow");
+    scene::Material ice = plain("ice");
+    ice.parameters["gain"] = constant({3});
+    ice.base_color = constant({1, 1, 1, 1});
+    ground.layers.push_back({1, constant({0.5})});
+    snow.layers.push_back({2, constant({0.5})});
+    const SceneFacts facts = facts_of(scene_of({ground, snow, ice}));
+    CHECK(range_of(facts, "gain") == ir::Range{1, 3});
+    CHECK(range_of(facts, "diffuse_color") == ir::Range{0.5, 1});
+    CHECK(facts.materials[0].calls[0]);
+
+    // Deeper than a stack of calls may be.
+    std::vector<scene::Material> tower(20'000, plain("m"));
+    for (std::size_t i = 0; i + 1 < tower.size(); ++i)
+        tower[i].layers.push_back({i + 1, constant({0.5})});
+    tower.back().parameters["gain"] = constant({5});
+    CHECK(range_of(facts_of(scene_of(std::move(tower))), "gain").high == 5);
+}
+
+TEST_CASE("ranges are told, and promised, in few digits around them")
+{
+    const SceneFacts facts = facts_of(scene_of(
+        {with("gain", between({static_cast<double>(0.3F)}, {static_cast<double>(0.7F)}))}));
+    // In floats 0.30000001192..., 0.699999988...
+    CHECK(range_of(facts, "gain").low == static_cast<double>(0.3F));
+    CHECK(facts.called().ranges.at("gain") == ir::Range{0.3, 0.7});
+    CHECK(facts.effects[0].why == "gain in [0.3, 0.7]");
+
+    std::mt19937 random{4};
+    std::uniform_real_distribution<double> exponent{-30, 30};
+    for (int trial = 0; trial < 10'000; ++trial) {
+        const double size = std::exp2(exponent(random));
+        const ir::Range range{trial % 2 == 0 ? size : -size, 2 * size};
+        const ir::Range told = analyze::in_digits(range);
+        CAPTURE(range.low, range.high);
+        REQUIRE(told.low <= range.low);
+        REQUIRE(told.high >= range.high);
+        // Within one of the sixth digit, which is at most 1e-5 of the number.
+        REQUIRE(range.low - told.low <= 1e-5 * std::abs(range.low));
+        REQUIRE(told.high - range.high <= 1e-5 * std::abs(range.high));
+        REQUIRE(std::stod(fmt::format("{:.6g}", told.low)) == told.low);
+        REQUIRE(std::stod(fmt::format("{:.6g}", told.high)) == told.high);
+    }
+    CHECK(analyze::in_digits({0, 1}) == ir::Range{0, 1});
+    CHECK(analyze::in_digits({0.999999999, 9.9999999}) == ir::Range{0.999999, 10});
 }
 
 TEST_CASE("what a model does not take is an error where it stands")

@@ -2,6 +2,7 @@
 
 #include "analyze/residual/conditions.h"
 #include "analyze/residual/parameters.h"
+#include "analyze/residual/reach.h"
 #include "analyze/residual/surface.h"
 
 #include <fmt/format.h>
@@ -34,7 +35,8 @@ std::vector<ir::SurfaceField> fields_of(const ir::Module& module, const std::str
 class Finder {
 public:
     Finder(const scene::Scene& scene, const ir::Module& module, const std::string& model)
-        : scene_{scene}, module_{module}, fields_{fields_of(module, model)}, conditions_{module}
+        : scene_{scene}, module_{module}, fields_{fields_of(module, model)},
+          conditions_{module}, colors_{vertex_colors(scene)}
     {
         facts_.model = model;
         facts_.defaults = default_facts(module);
@@ -93,9 +95,12 @@ private:
                      : is_default(index)    ? "default material"
                                             : fmt::format("material {}", index);
         facts.coverage = coverage;
-        facts.inputs = given_parameters(scene_, material, module_, errors_);
-        RawSurface raw = raw_surface(scene_, material);
-        for (const scene::Layer& layer : material.layers) blend_in(layer, raw, facts.inputs);
+        const Blend& blend = blend_of(index);
+        errors_.insert(errors_.end(), blend.complaints.begin(), blend.complaints.end());
+        facts_.has_layers = facts_.has_layers || !material.layers.empty();
+        facts.inputs = blend.inputs;
+        RawSurface raw = blend.raw;
+        raw.base_color = colored(std::move(raw.base_color), colors_[index]);
         std::erase_if(facts.inputs, [](const auto& named) { return named.second.is_default; });
         for (const ir::SurfaceField field : fields_)
             facts.inputs[std::string{ir::facts(field).name}] = surface_field(raw, field);
@@ -108,20 +113,44 @@ private:
         facts_.materials.push_back(std::move(facts));
     }
 
-    /// What a layer's parameters, blended over those below by a weight, can make of them.
-    void blend_in(const scene::Layer& layer, RawSurface& raw,
-                  std::map<std::string, InputFact>& inputs)
+    /// What a material and the layers over it can be blended to, layers of layers too.
+    struct Blend {
+        RawSurface raw;
+        std::map<std::string, InputFact> inputs;
+        std::vector<Complaint> complaints;  ///< of the material itself
+    };
+
+    const Blend& blend_of(std::size_t material)
     {
-        facts_.has_layers = true;
-        const scene::Material& over = scene_.materials[layer.material];
-        raw = hull(raw, raw_surface(scene_, over));
-        // Its own mistakes are told where it is a material of its own.
-        std::vector<Complaint> told;
-        const auto given = given_parameters(scene_, over, module_, told);
-        for (const auto& [name, fact] : given) inputs.try_emplace(name, facts_.defaults.at(name));
-        for (auto& [name, fact] : inputs) {
-            const auto found = given.find(name);
-            fact = hull(fact, found == given.end() ? facts_.defaults.at(name) : found->second);
+        // A stack of our own: layers may be as deep as a scene has materials.
+        std::vector<std::size_t> open{material};
+        while (!open.empty()) {
+            const std::size_t at = open.back();
+            const std::size_t before = open.size();
+            for (const scene::Layer& layer : scene_.materials[at].layers)
+                if (!blends_.contains(layer.material)) open.push_back(layer.material);
+            if (open.size() > before) continue;
+            open.pop_back();
+            if (blends_.contains(at)) continue;
+            Blend& blend = blends_[at];
+            blend.raw = raw_surface(scene_, scene_.materials[at]);
+            blend.inputs =
+                given_parameters(scene_, scene_.materials[at], module_, blend.complaints);
+            for (const scene::Layer& layer : scene_.materials[at].layers)
+                blend_in(blends_.at(layer.material), blend);
+        }
+        return blends_.at(material);
+    }
+
+    void blend_in(const Blend& layer, Blend& below) const
+    {
+        const auto otherwise = [this](const std::string& name) { return facts_.defaults.at(name); };
+        below.raw = hull(below.raw, layer.raw);
+        for (const auto& [name, fact] : layer.inputs)
+            below.inputs.try_emplace(name, otherwise(name));
+        for (auto& [name, fact] : below.inputs) {
+            const auto found = layer.inputs.find(name);
+            fact = hull(fact, found == layer.inputs.end() ? otherwise(name) : found->second);
         }
     }
 
@@ -171,8 +200,7 @@ private:
         for (const scene::Light& light : scene_.lights) names.insert(light_name(light));
         facts_.light_names.assign(names.begin(), names.end());
         facts_.has_environment = scene_.environment.has_value();
-        facts_.has_tangents = std::ranges::any_of(
-            scene_.meshes, [](const scene::Mesh& mesh) { return !mesh.tangents.empty(); });
+        facts_.has_tangents = std::ranges::any_of(scene_.meshes, &scene::Mesh::has_tangents);
         facts_.double_sided = std::ranges::any_of(
             shown, [&](std::size_t index) { return scene_.materials[index].double_sided; });
     }
@@ -181,6 +209,8 @@ private:
     const ir::Module& module_;
     std::vector<ir::SurfaceField> fields_;
     Conditions conditions_;
+    std::vector<VertexColors> colors_;  ///< by material
+    std::map<std::size_t, Blend> blends_;
     SceneFacts facts_;
     std::vector<Complaint> errors_;
     std::vector<Complaint> notes_;
@@ -240,7 +270,7 @@ optimize::Called SceneFacts::called(const std::vector<std::size_t>& of, SurfaceU
                      std::ranges::all_of(first.value(), is_zero_or_one)))
             out.constants[name] = first.value();
         else
-            out.ranges[name] = range;
+            out.ranges[name] = in_digits(range);
         if (binary) out.binary.insert(name);
     }
     for (std::size_t i = 0; i < effects.size(); ++i)

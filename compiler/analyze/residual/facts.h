@@ -85,7 +85,8 @@ struct SceneFacts {
     const InputFact& input(const MaterialFacts& of, const std::string& name) const;
 
     /// What all these materials (all where empty) have in common: constants they share, hulls of
-    /// ranges, effects that none of them calls for.
+    /// ranges (with ends of a few digits, as they are the promise that the shader states), effects
+    /// that none of them calls for.
     optimize::Called called(const std::vector<std::size_t>& of = {},
                             SurfaceUse surface = SurfaceUse::shared) const;
 };

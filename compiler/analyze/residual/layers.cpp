@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -59,6 +60,9 @@ public:
             box_.coordinates.push_back({name, -1, 1});
         box_.light = 0;
         box_.view = 3;
+        const VertexColors colors = vertex_colors(scene)[material];
+        for (std::size_t c = 0; c < colors_.size(); ++c)
+            colors_[c] = ingredient(fmt::format("vertex color[{}]", c), colors.rgb[c]);
         add(material);
         std::vector<ir::FunctionId> outputs;
         for (const ir::Model& one : module.models)
@@ -73,7 +77,6 @@ public:
             for (int c = 0; c < ir::components(parameter.type); ++c)
                 places[parameter.name +
                        evaluate::component_suffix(parameter.type, parameter.quantity, c)] = place++;
-        width_ = place;
         for (const evaluate::TapeInput& input : tape_.inputs) {
             const auto found = places.find(input.name);
             sources_.push_back({input.name, found == places.end() ? 0 : found->second});
@@ -184,6 +187,12 @@ private:
         Rows out;
         for (const Ingredient& value : materials_[material].values)
             out.push_back(column(value, meter));
+        for (std::size_t c = 0; c < colors_.size(); ++c) {
+            const std::vector<double> color = column(colors_[c], meter);
+            for (std::size_t row = 0; row < color.size(); ++row)
+                out[base_color + c][row] =
+                    std::clamp(out[base_color + c][row] * color[row], 0.0, 1.0);
+        }
         return out;
     }
 
@@ -259,9 +268,9 @@ private:
     RadianceBox box_;
     evaluate::Tape tape_;
     std::vector<Source> sources_;
+    std::array<Ingredient, 3> colors_;  ///< of vertices
     std::vector<Stacked> materials_;
     std::map<std::size_t, std::size_t> index_of_;  ///< from the scene's materials
-    std::size_t width_ = 0;
 };
 
 RadianceError worst_of(const Stack& stack, const LayerOptions& options)
@@ -316,18 +325,28 @@ RadianceError worst_of(const Stack& stack, const LayerOptions& options)
 
 }  // namespace
 
-std::vector<LayeredMaterial> layered_materials(const scene::Scene& scene, const ir::Module& module,
-                                               const std::string& model,
-                                               const LayerOptions& options)
+bool LayeredMaterial::one_shading_is_enough() const
 {
-    std::vector<LayeredMaterial> out;
+    const double white = 1;
+    const double half_a_step_darker = std::pow((white - 0.5 / 255 + 0.055) / 1.055, 2.4);
+    return error.worst < white - half_a_step_darker;
+}
+
+LayeredMaterials layered_materials(const scene::Scene& scene, const ir::Module& module,
+                                   const std::string& model, const LayerOptions& options)
+{
+    LayeredMaterials out;
     for (const std::size_t index : scene.shown_materials()) {
         const scene::Material& material = scene.materials[index];
-        if (material.layers.empty()) continue;
+        if (material.layers.empty() || material.is_unlit) continue;
+        if (out.measured.size() == options.most) {
+            ++out.not_measured;
+            continue;
+        }
         const Stack stack{scene, module, model, index};
-        out.push_back({index,
-                       material.name.empty() ? fmt::format("material {}", index) : material.name,
-                       stack.layers(), worst_of(stack, options)});
+        out.measured.push_back(
+            {index, material.name.empty() ? fmt::format("material {}", index) : material.name,
+             stack.layers(), worst_of(stack, options)});
     }
     return out;
 }

@@ -23,18 +23,26 @@ struct LayeredMaterial {
     /// Of the blended parameters, by the measure of packings: relative to the blend of the results,
     /// or to an 18 % gray card where darker. The witness has directions and weights.
     RadianceError error;
+    /// Nothing that was found is off by half a step of an 8-bit sRGB display at white, where its
+    /// steps are least beside the light: blend the parameters, and shade once.
+    bool one_shading_is_enough() const;
+};
+
+struct LayeredMaterials {
+    std::vector<LayeredMaterial> measured;  ///< in the file's order
+    std::size_t not_measured = 0;           ///< beyond `LayerOptions::most`
 };
 
 struct LayerOptions {
     std::size_t points = std::size_t{1} << 14;  ///< per material, before the climb
+    std::size_t most = 64;                      ///< materials
     unsigned jobs = 0;
 };
 
-/// Every shown material that has layers. The module has been through optimize; a material's values
-/// are within the model's ranges (find_facts saw to it). Layers of layers are not looked into.
+/// The shown and lit materials that have layers, with the layers of these. The module has been
+/// through optimize; a material's values are within the model's ranges (find_facts saw to it).
 /// Equal inputs give equal results, whatever the number of threads.
-std::vector<LayeredMaterial> layered_materials(const scene::Scene& scene, const ir::Module& module,
-                                               const std::string& model,
-                                               const LayerOptions& options = {});
+LayeredMaterials layered_materials(const scene::Scene& scene, const ir::Module& module,
+                                   const std::string& model, const LayerOptions& options = {});
 
 }  // namespace lobe::analyze

@@ -140,7 +140,8 @@ std::string in_words(const InputFact& fact)
     if (fact.is_binary) return "0 or 1";
     Range range = fact.components.front();
     for (const Range& component : fact.components) range = hull(range, component);
-    return fmt::format("in [{:.6g}, {:.6g}]", range.low, range.high);
+    range = in_digits(range);
+    return fmt::format("in [{}, {}]", range.low, range.high);
 }
 
 std::map<std::string, InputFact> default_facts(const ir::Module& module)

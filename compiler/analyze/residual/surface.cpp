@@ -10,7 +10,7 @@ namespace {
 using ir::Range;
 
 constexpr double specular_scale = 0.08;
-constexpr double default_f0 = 0.04;
+constexpr double default_ior = 1.5;
 
 Range clamped(const Range& range, double low, double high)
 {
@@ -33,40 +33,47 @@ InputFact fact_of(const scene::Scene& scene, const scene::Value& value, std::siz
     return fact;
 }
 
-struct Dielectric {
-    std::vector<Range> f0{3, Range{default_f0, default_f0}};
-    scene::Pointer called_by;
-};
-
-Dielectric dielectric_of(const scene::Scene& scene, const scene::Material& material)
+void mark_binary(InputFact& fact)
 {
-    Dielectric out;
+    fact.is_binary = std::ranges::all_of(fact.components, [](const Range& range) {
+        return range.low == range.high && (range.low == 0 || range.low == 1);
+    });
+}
+
+/// `dielectric_f0` over what a material gives: it grows with color and strength, and with how far
+/// the index is from 1.
+InputFact dielectric_of(const scene::Scene& scene, const scene::Material& material)
+{
+    InputFact out;
+    out.is_default = true;
     const auto given = [&](const char* name) -> const scene::Value* {
         const auto found = material.extensions.find(name);
         if (found == material.extensions.end()) return nullptr;
-        if (out.called_by.empty()) out.called_by = found->second.pointer;
+        if (out.is_default) out.called_by = found->second.pointer;
+        out.is_default = false;
         return &found->second;
     };
+    double least = default_ior;
+    double most = default_ior;
     if (const scene::Value* ior = given("ior")) {
-        // Grows with an index from 1 on; 0 stands for a reflectance of 1.
-        const auto at = [](double n) { return (n - 1) * (n - 1) / ((n + 1) * (n + 1)); };
         const Range n = reach(scene, *ior).components.at(0);
-        const double a = at(n.low);
-        const double b = at(n.high);
-        const double least = n.low <= 1 && n.high >= 1 ? 0 : std::min(a, b);
-        out.f0.assign(3, {least, std::max(a, b)});
+        const bool low_is_more = dielectric_f0(n.low, 1, 1) > dielectric_f0(n.high, 1, 1);
+        least = n.low <= 1 && n.high >= 1 ? 1 : low_is_more ? n.high : n.low;
+        most = low_is_more ? n.low : n.high;
     }
-    if (const scene::Value* color = given("specular_color")) {
-        const Reach found = reach(scene, *color);
-        for (std::size_t k = 0; k < 3 && k < found.in_floats.size(); ++k)
-            out.f0[k] = {out.f0[k].low * std::max(found.in_floats[k].low, 0.0),
-                         out.f0[k].high * std::max(found.in_floats[k].high, 0.0)};
+    std::vector<Range> color(3, Range{1, 1});
+    if (const scene::Value* const value = given("specular_color")) {
+        const Reach found = reach(scene, *value);
+        for (std::size_t k = 0; k < color.size() && k < found.in_floats.size(); ++k)
+            color[k] = {std::max(found.in_floats[k].low, 0.0),
+                        std::max(found.in_floats[k].high, 0.0)};
     }
-    for (Range& range : out.f0) range = clamped(range, 0, 1);
-    if (const scene::Value* strength = given("specular")) {
-        const Range found = clamped(reach(scene, *strength).in_floats.at(0), 0, 1);
-        for (Range& range : out.f0) range = {range.low * found.low, range.high * found.high};
-    }
+    Range strength{1, 1};
+    if (const scene::Value* const value = given("specular"))
+        strength = clamped(reach(scene, *value).in_floats.at(0), 0, 1);
+    for (const Range& channel : color)
+        out.components.push_back({dielectric_f0(least, channel.low, strength.low),
+                                  dielectric_f0(most, channel.high, strength.high)});
     return out;
 }
 
@@ -96,14 +103,45 @@ InputFact derived(std::initializer_list<const InputFact*> sources)
     return out;
 }
 
-void mark_binary(InputFact& fact)
+}  // namespace
+
+double dielectric_f0(double ior, double specular_color, double specular)
 {
-    fact.is_binary = std::ranges::all_of(fact.components, [](const Range& range) {
-        return range.low == range.high && (range.low == 0 || range.low == 1);
-    });
+    const double of_index = (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1));
+    return std::min(of_index * specular_color, 1.0) * specular;
 }
 
-}  // namespace
+std::vector<VertexColors> vertex_colors(const scene::Scene& scene)
+{
+    const Range one{1, 1};
+    std::vector<VertexColors> out(scene.materials.size());
+    std::vector<bool> is_shown(scene.materials.size());
+    for (const scene::Instance& instance : scene.instances) {
+        const scene::Mesh& mesh = scene.meshes[instance.mesh];
+        VertexColors& colors = out[mesh.material];
+        for (std::size_t k = 0; k < colors.rgb.size(); ++k) {
+            const Range here{static_cast<double>(mesh.least_color[k]),
+                             static_cast<double>(mesh.greatest_color[k])};
+            colors.rgb[k] = is_shown[mesh.material] ? hull(colors.rgb[k], here) : here;
+            if (here != one && colors.called_by.empty())
+                colors.called_by = mesh.pointer + "/attributes/COLOR_0";
+        }
+        is_shown[mesh.material] = true;
+    }
+    return out;
+}
+
+InputFact colored(InputFact base_color, const VertexColors& colors)
+{
+    if (colors.called_by.empty()) return base_color;
+    for (std::size_t k = 0; k < base_color.components.size(); ++k)
+        base_color.components[k] =
+            clamped(product_in_floats(base_color.components[k], colors.rgb[k]), 0, 1);
+    mark_binary(base_color);
+    if (base_color.is_default) base_color.called_by = colors.called_by;
+    base_color.is_default = false;
+    return base_color;
+}
 
 RawSurface raw_surface(const scene::Scene& scene, const scene::Material& material)
 {
@@ -112,13 +150,10 @@ RawSurface raw_surface(const scene::Scene& scene, const scene::Material& materia
     raw.metallic = fact_of(scene, material.metallic, 1);
     raw.roughness =
         fact_of(scene, material.roughness, 1, ir::facts(ir::SurfaceField::roughness).low);
-    const Dielectric dielectric = dielectric_of(scene, material);
-    raw.dielectric_f0.components = dielectric.f0;
-    raw.dielectric_f0.called_by = dielectric.called_by;
-    raw.dielectric_f0.is_default = dielectric.called_by.empty();
-    raw.exceeds_specular = std::ranges::any_of(dielectric.f0, [&](const Range& range) {
-        return range.high > specular_scale || range != dielectric.f0.front();
-    });
+    raw.dielectric_f0 = dielectric_of(scene, material);
+    const std::vector<Range>& f0 = raw.dielectric_f0.components;
+    raw.exceeds_specular = std::ranges::any_of(
+        f0, [&](const Range& range) { return range.high > specular_scale || range != f0.front(); });
     return raw;
 }
 

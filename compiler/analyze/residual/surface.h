@@ -18,6 +18,10 @@
 
 namespace lobe::analyze {
 
+/// Of what is no metal, in one channel. glTF's default is an index of 1.5, and 1 for the others; an
+/// index of 0 is a reflectance of 1.
+double dielectric_f0(double ior, double specular_color, double specular);
+
 /// What the fields follow from, each a range per component.
 struct RawSurface {
     InputFact base_color;
@@ -28,6 +32,19 @@ struct RawSurface {
     /// than 0.08: worth a note where the model reads `specular`.
     bool exceeds_specular = false;
 };
+
+/// What the colors of vertices multiply the base color by where a material is shown. Over a
+/// triangle they are between those of its corners.
+struct VertexColors {
+    std::vector<ir::Range> rgb{3, ir::Range{1, 1}};
+    scene::Pointer called_by;  ///< the first that are not 1
+};
+/// By material. A layer has the colors of what it lies over.
+std::vector<VertexColors> vertex_colors(const scene::Scene& scene);
+/// A base color times those of vertices.
+InputFact colored(InputFact base_color, const VertexColors& colors);
+
+/// Of a material where vertices have no colors.
 RawSurface raw_surface(const scene::Scene& scene, const scene::Material& material);
 
 /// Everything that a blend of two can be.
