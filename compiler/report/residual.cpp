@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <cmath>
 
 namespace lobe::report {
 namespace {
@@ -68,6 +68,14 @@ std::string why_on(const SceneFacts& facts, const Variant& variant, std::size_t 
             return analyze::why_on(facts.materials[m], facts.effects[effect]) + ", " +
                    facts.materials[m].name;
     return "not decided by the scene";
+}
+
+/// Why an effect stays under an epsilon.
+std::string why_kept(const analyze::Dropped& kept, double epsilon)
+{
+    if (!(kept.observed < epsilon)) return "changes radiance by more than " + percent_of(epsilon);
+    if (!(kept.bound < epsilon)) return "no bound below " + percent_of(epsilon) + " is proved";
+    return "too much with what was left out, or other materials need it";
 }
 
 std::string listed(const std::vector<double>& value)
@@ -205,6 +213,22 @@ Table certificate_table(const Specialization& of)
     return table;
 }
 
+Table kept_table(const Specialization& of)
+{
+    Table table{{{"shader"}, {"effect that stays"}, {"found", true}, {"proved", true}, {"why"}},
+                {}};
+    for (std::size_t i = 0; i < of.certificates.size(); ++i)
+        for (const analyze::Dropped& kept : of.certificates[i].kept) {
+            const bool is_bounded = std::isfinite(kept.bound);
+            table.rows.push_back({{of.variants.chosen[i].name, Style::strong},
+                                  {kept.effect},
+                                  {percent_of(kept.observed)},
+                                  {is_bounded ? "at most " + percent_of(kept.bound) : "-"},
+                                  {why_kept(kept, of.epsilon)}});
+        }
+    return table;
+}
+
 std::string to_text(const Specialization& of, const Look& look)
 {
     std::string out = render(effect_table(of.facts), look) + "\n";
@@ -212,6 +236,7 @@ std::string to_text(const Specialization& of, const Look& look)
     const Table frontier = frontier_table(of);
     if (!frontier.rows.empty()) out += render(frontier, look) + "\n";
     if (!of.certificates.empty()) out += render(certificate_table(of), look) + "\n";
+    if (const Table kept = kept_table(of); !kept.rows.empty()) out += render(kept, look) + "\n";
     if (of.variants.no_statistics.empty())
         out += fmt::format("{}: issue cycles of one evaluation from vectors on {}, by {}\n",
                            analyze::name(of.family), analyze::title(of.family), of.variants.driver);

@@ -38,6 +38,9 @@ Table frontier_table(const Specialization& of);
 /// One row per shader and output.
 Table certificate_table(const Specialization& of);
 
+/// One row per shader and effect that stays although an epsilon was given; empty without one.
+Table kept_table(const Specialization& of);
+
 std::string to_text(const Specialization& of, const Look& look);
 Document to_document(const Specialization& of);
 nlohmann::ordered_json to_json(const Specialization& of);

@@ -44,6 +44,16 @@ ordered_json variant_json(const Specialization& of, const analyze::Variant& vari
             {"cost", cost_json(variant.cost)}};
 }
 
+ordered_json effects_json(const std::vector<analyze::Dropped>& effects)
+{
+    ordered_json out = ordered_json::array();
+    for (const analyze::Dropped& each : effects)
+        out.push_back({{"effect", each.effect},
+                       {"bound", json_number(each.bound)},
+                       {"observed", json_number(each.observed)}});
+    return out;
+}
+
 ordered_json certificate_json(const analyze::Certificate& certificate, const std::string& shader)
 {
     ordered_json outputs = ordered_json::array();
@@ -57,15 +67,11 @@ ordered_json certificate_json(const analyze::Certificate& certificate, const std
         }
         outputs.push_back(std::move(each));
     }
-    ordered_json dropped = ordered_json::array();
-    for (const analyze::Dropped& each : certificate.dropped)
-        dropped.push_back({{"effect", each.effect},
-                           {"bound", json_number(each.bound)},
-                           {"observed", json_number(each.observed)}});
     return {{"shader", shader},
             {"ok", certificate.ok()},
             {"outputs", std::move(outputs)},
-            {"left_out", std::move(dropped)}};
+            {"left_out", effects_json(certificate.dropped)},
+            {"kept", effects_json(certificate.kept)}};
 }
 
 }  // namespace

@@ -56,6 +56,8 @@ Document to_document(const Specialization& of)
                                         "both shaders, in half widths "
                                         "of what a device may return for the general one.",
                                         certificate_table(of)));
+    if (Table kept = kept_table(of); !kept.rows.empty())
+        page.sections.push_back(section("What an epsilon does not let go", "", std::move(kept)));
     page.sections.push_back(section("Materials", "", material_table(of.facts)));
     Section inputs = section("Inputs", "", input_table(of.facts));
     inputs.text = surroundings(of.facts);

@@ -251,6 +251,52 @@ TEST_CASE("an epsilon drops what it may, and the banner has the bound")
     CHECK(dropped[0]["observed"] <= dropped[0]["bound"]);
 }
 
+TEST_CASE("what an epsilon does not let go is listed with its bound")
+{
+    const Scratch scratch;
+    scratch.write("some.gltf", document(json::array({material(
+                                   {{"retroreflection", 3}, {"dual_specular_opacity", 0.001}})})));
+    const Outcome outcome =
+        specialize(scratch, "some.gltf --epsilon 2% --points 64 --no-execution -t glsl450 -o out "
+                            "--certificate c.json --html page.html");
+    CAPTURE(outcome.out, outcome.err);
+    REQUIRE(outcome.status == 0);
+    const json shader = json::parse(scratch.read("c.json"))["shaders"][0];
+    CHECK(shader["left_out"].empty());
+    const json& kept = shader["kept"];
+    REQUIRE(kept.size() == 2);
+    CHECK(kept[0]["effect"] == "Retroreflection");
+    CHECK(kept[0]["observed"] > 0.02);
+    CHECK(kept[0]["bound"] == "inf");  // none is looked for where more was found
+    CHECK(kept[1]["effect"] == "Dual Specular");
+    CHECK(kept[1]["observed"] < 0.02);
+    CHECK(kept[1]["bound"] >= 0.02);
+    CHECK_THAT(outcome.out, Contains("changes radiance by more than 2 %") &&
+                                Contains("no bound below 2 % is proved"));
+    CHECK_THAT(scratch.read("page.html"), Contains("What an epsilon does not let go"));
+}
+
+TEST_CASE("layered materials say what shading once is off by")
+{
+    const Scratch scratch;
+    const Outcome outcome = scene(scratch, scenes + "layers.gltf --json all.json");
+    REQUIRE(outcome.status == 0);
+    CHECK_THAT(outcome.out, Contains("it shows: shade every layer") && Contains("worst of muddy"));
+    const json layered = json::parse(scratch.read("all.json"))[0]["layered"];
+    REQUIRE(layered["measured"].size() == 1);
+    CHECK(layered["not_measured"] == 0);
+    const json& muddy = layered["measured"][0];
+    CHECK(muddy["layers"] == 2);
+    CHECK(muddy["one_shading_is_enough"] == false);
+    const double once = muddy["witness"]["shaded_once"];
+    const double by_layers = muddy["witness"]["shaded_by_layers"];
+    CHECK(muddy["worst"] >= std::abs(once - by_layers) / by_layers * (1 - 0x1p-50));
+    CHECK(muddy["witness"]["inputs"].contains("muddy layer 2 weight"));
+
+    const Outcome none = scene(scratch, scenes + "base_only.gltf --json -");
+    CHECK(json::parse(none.out)[0]["layered"]["measured"].empty());
+}
+
 TEST_CASE("a hundred thousand materials are grouped, not listed")
 {
     const Scratch scratch;
