@@ -216,7 +216,7 @@ struct Patch {
         return analyze::check_engine_shaders(
             {.original = overlaid(files, clean.changes),
              .patched = overlaid(files, changes),
-             .folder = "Engine/Shaders/Private",
+             .folder = list.folders.at("SH"),  // engine.edits calls it so
              .shading_model = wanted.request.values.texts.at("MODEL"),
              .node_function = wanted.node,
              .node_inputs = wanted.node_inputs});

@@ -130,7 +130,7 @@ private:
         start(About::nothing);
         const std::string name{name_of(take_word(rest))};
         if (rest.empty()) fail("`path` gives a short name to a folder");
-        paths_.emplace_back(name, std::string{rest});
+        result_.list.folders[name] = rest;
     }
 
     void supports(std::string_view rest)
@@ -353,9 +353,10 @@ private:
     std::string whole_path(std::string_view path)
     {
         const auto slash = path.find('/');
-        for (const auto& [name, folder] : paths_)
-            if (name == path.substr(0, slash) && slash != std::string_view::npos)
-                return fmt::format("{}{}", folder, path.substr(slash));
+        const auto& folders = result_.list.folders;
+        if (slash != std::string_view::npos)
+            if (const auto found = folders.find(path.substr(0, slash)); found != folders.end())
+                return fmt::format("{}{}", found->second, path.substr(slash));
         if (path.empty()) fail("a path is missing");
         return std::string{path};
     }
@@ -387,7 +388,6 @@ private:
     ParsedEdits result_;
     std::vector<Error> errors_;
     int line_ = 0;
-    std::vector<std::pair<std::string, std::string>> paths_;
     std::vector<std::string> words_;
     std::vector<std::string> values_;
     std::vector<std::pair<int, std::string>> asked_words_;

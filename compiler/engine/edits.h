@@ -69,6 +69,7 @@
 #pragma once
 
 #include <compare>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -159,6 +160,7 @@ struct TreeFile {
 };
 
 struct EditList {
+    std::map<std::string, std::string, std::less<>> folders;  ///< by the names that `path` gives
     std::vector<TreeFile> files;
     std::vector<Query> queries;
     std::vector<Edit> edits;

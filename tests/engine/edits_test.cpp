@@ -52,6 +52,7 @@ TEST_CASE("a list is read as it is written", "[engine][edits]")
                                   "  | y\n"
                                   "new SH/${Model}.ush from.ush\n"
                                   "  when has_node\n");
+    CHECK(list.folders.at("SH") == "Engine/Shaders");
     REQUIRE(list.files.size() == 2);
     CHECK(list.files[0].path == "Engine/Shaders/A.ush");
     CHECK(list.files[0].optional);
