@@ -57,7 +57,8 @@ TEST_CASE("a hazard has the shortest witness, the place and the remedy")
     CHECK(hazard.result == "H = NaN, exactly 1");
     CHECK(hazard.share > 0);
     REQUIRE(hazard.remedy);
-    CHECK(hazard.remedy->name == "guarded power");
+    CHECK(hazard.remedy->name == "guarded_power");
+    CHECK(hazard.remedy->text == "max(x, 2^-126)^y");
     CHECK(all[0].emitted.empty());
     CHECK(all[0].naive_not_finite > 0);
     CHECK(all[0].emitted_not_finite == 0);

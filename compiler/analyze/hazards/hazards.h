@@ -32,7 +32,7 @@ struct Remedy {
         products  ///< products and roots in place of a power
     };
 
-    std::string name;  ///< of a rule of optimize, or of a guard: `blend_h`, `guarded power`
+    std::string name;  ///< of a rule or an action of optimize: `blend_h`, `guarded_power`
     std::string text;  ///< `a + (1 - a) sin2_h`
     std::optional<std::array<double, all_families.size()>>
         cycles;  ///< issue cycles that it adds, from vectors

@@ -1,5 +1,6 @@
 #include "analyze/hazards/remedy.h"
 
+#include "optimize/explain.h"
 #include "optimize/guard.h"
 #include "optimize/rewrite.h"
 
@@ -21,49 +22,46 @@ bool contains(const Span& outer, const Span& inner)
     return outer.source == inner.source && outer.begin <= inner.begin && inner.end <= outer.end;
 }
 
-Remedy guard(std::string name, std::string text)
+Remedy remedy(std::string_view name, std::string_view text, Remedy::Kind kind)
 {
-    return {std::move(name), std::move(text), {}, Remedy::Kind::guard};
+    return {std::string{name}, std::string{text}, {}, kind};
+}
+
+/// What legalizing calls holding the argument of an operation; null for other operations.
+const optimize::Action* holding(Op op)
+{
+    switch (op) {
+    case Op::square_root: return &optimize::action("held_root");
+    case Op::inverse_square_root: return &optimize::action("held_inverse_root");
+    case Op::log:
+    case Op::log2: return &optimize::action("held_logarithm");
+    case Op::arc_sine:
+    case Op::arc_cosine: return &optimize::action("held_angle");
+    default: return nullptr;
+    }
 }
 
 /// The guard that an expression is, if it is one.
-std::optional<Remedy> guard_of(const Graph& graph, ExprId id, const Span& span)
+const optimize::Action* guard_of(const Graph& graph, ExprId id, const Span& span)
 {
-    switch (graph[id].op) {
-    case Op::guarded_power:
-        if (graph.span(id) == span)
-            return guard("guarded power", "y == 0 ? 1 : x <= 0 ? 0 : pow(x, y)");
-        break;
-    case Op::guarded_smoothstep:
-        if (graph.span(id) == span)
-            return guard("guarded smoothstep", "b <= a ? (x > a ? 1 : 0) : smoothstep(a, b, x)");
-        break;
-    case Op::guarded_normalize:
-        if (graph.span(id) == span)
-            return guard("guarded normalize", "v . v > 0 ? normalize(v) : 0");
-        break;
-    case Op::select:
-        if (const auto found = optimize::find_guard(graph, id);
-            found && (graph.span(found->quotient) == span || graph.span(id) == span))
-            return guard("named limit", "|b| < 2^-64 ? c : a / b");
-        break;
-    case Op::square_root:
-    case Op::inverse_square_root:
-    case Op::log:
-    case Op::log2:
-    case Op::arc_sine:
-    case Op::arc_cosine:
-        if (graph.span(id) == span) {
-            const ExprId operand = graph.operands(id)[0];
-            const Op held = graph[operand].op;
-            if ((held == Op::maximum || held == Op::clamp) && !is_placed(graph.span(operand)))
-                return guard("held in its domain",
-                             held == Op::clamp ? "clamp(x, -1, 1)" : "max(x, least)");
-        }
-        break;
+    const Op op = graph[id].op;
+    const bool is_here = graph.span(id) == span;
+    switch (op) {
+    case Op::guarded_power: return is_here ? &optimize::action("guarded_power") : nullptr;
+    case Op::guarded_smoothstep: return is_here ? &optimize::action("guarded_smoothstep") : nullptr;
+    case Op::guarded_normalize: return is_here ? &optimize::action("guarded_normalize") : nullptr;
+    case Op::select: {
+        const auto found = optimize::find_guard(graph, id);
+        const bool is_around = found && graph.span(found->quotient) == span;
+        return found && (is_here || is_around) ? &optimize::action("guarded_quotient") : nullptr;
+    }
     default: break;
     }
-    return std::nullopt;
+    const optimize::Action* const held = holding(op);
+    if (held == nullptr || !is_here) return nullptr;
+    const ExprId operand = graph.operands(id)[0];
+    const bool is_bounded = graph[operand].op == Op::maximum || graph[operand].op == Op::clamp;
+    return is_bounded && !is_placed(graph.span(operand)) ? held : nullptr;
 }
 
 /// The module without the guards at a place.
@@ -78,10 +76,10 @@ ir::Module without_guards_at(const ir::Module& emitted, const Span& span)
     return optimize::rewrite(emitted, [&span](optimize::Rebuild& rebuild) -> optimize::Step {
         const Graph& old = rebuild.old().graph;
         if (!optimize::any_expression(
-                old, [&](ExprId id) { return guard_of(old, id, span).has_value(); }))
+                old, [&](ExprId id) { return guard_of(old, id, span) != nullptr; }))
             return {};
         return [&rebuild, &old, &span](ExprId id) {
-            if (!guard_of(old, id, span)) return rebuild.copy(id);
+            if (guard_of(old, id, span) == nullptr) return rebuild.copy(id);
             const auto make = [&](Op op) {
                 return rebuild.graph.apply(op, rebuild.moved_operands(id), old.span(id));
             };
@@ -110,7 +108,8 @@ std::optional<Remedy> remedy_of(const WatchedLine& naive, ExprId expression,
     const Graph& graph = emitted.function.graph;
     const Span span = naive.function.graph.span(expression);
     for (const ExprId id : graph.ids())
-        if (auto guard = guard_of(graph, id, span)) return guard;
+        if (const auto* guard = guard_of(graph, id, span))
+            return remedy(guard->name, guard->replacement, Remedy::Kind::guard);
     if (!is_placed(span)) return std::nullopt;
 
     // The smallest expression that a rule rewrote and that this one is part of; else one within it.
@@ -123,19 +122,21 @@ std::optional<Remedy> remedy_of(const WatchedLine& naive, ExprId expression,
             best = &application;
     }
     if (best != nullptr)
-        return Remedy{std::string{best->rule->name},
-                      std::string{best->rule->replacement},
-                      {},
-                      Remedy::Kind::rule};
+        return remedy(best->rule->name, best->rule->replacement, Remedy::Kind::rule);
 
     if (naive.function.graph[expression].op == Op::power) {
-        bool products = false;
+        const optimize::Action* products = nullptr;
         for (const ExprId id : graph.ids()) {
             if (!(graph.span(id) == span)) continue;
-            if (graph[id].op == Op::power) return std::nullopt;
-            products |= graph[id].op == Op::multiply || graph[id].op == Op::square_root;
+            const Op op = graph[id].op;
+            if (op == Op::power) return std::nullopt;
+            if (op == Op::square_root)
+                products = &optimize::action("half_power");
+            else if (op == Op::multiply && products == nullptr)
+                products = &optimize::action("whole_power");
         }
-        if (products) return Remedy{"products", "x^5 is (x^2)^2 x", {}, Remedy::Kind::products};
+        if (products != nullptr)
+            return remedy(products->name, products->replacement, Remedy::Kind::products);
     }
     return std::nullopt;
 }
