@@ -1,14 +1,13 @@
 #include "render/picture.h"
 
-#include <png.h>
+#include "scene/color.h"
+#include "scene/pictures.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace lobe::render {
 namespace {
-
-float luminance(const Vector3& c) { return 0.2126F * c[0] + 0.7152F * c[1] + 0.0722F * c[2]; }
 
 /// IEC 61966-2-1.
 std::uint8_t encoded(float linear)
@@ -25,7 +24,7 @@ float exposure(const Picture& picture)
     double sum = 0;
     std::size_t count = 0;
     for (const Vector3& pixel : picture.radiance)
-        if (const float light = luminance(pixel); light > 0 && std::isfinite(light)) {
+        if (const float light = scene::luminance(pixel); light > 0 && std::isfinite(light)) {
             sum += std::log(light);
             ++count;
         }
@@ -37,11 +36,11 @@ std::vector<std::uint8_t> displayed(const Picture& picture, float exposure)
 {
     float white = 4;
     for (const Vector3& pixel : picture.radiance)
-        white = std::max(white, exposure * luminance(pixel));
+        white = std::max(white, exposure * scene::luminance(pixel));
     std::vector<std::uint8_t> rgb;
     rgb.reserve(3 * picture.radiance.size());
     for (const Vector3& pixel : picture.radiance) {
-        const float light = exposure * luminance(pixel);
+        const float light = exposure * scene::luminance(pixel);
         const float scale = exposure * (1 + light / (white * white)) / (1 + light);
         for (const float channel : pixel) rgb.push_back(encoded(channel * scale));
     }
@@ -72,18 +71,7 @@ Panel beside(const std::vector<Panel>& panels, int height)
 
 std::string png(const Panel& panel, int height)
 {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(panel.width);
-    image.height = static_cast<png_uint_32>(height);
-    image.format = PNG_FORMAT_RGB;
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-    std::string bytes(size, '\0');
-    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, panel.rgb.data(), 0, nullptr) ==
-        0)
-        return {};
-    bytes.resize(size);
-    return bytes;
+    return scene::encode_png({panel.width, height, 3, false, panel.rgb}, true);
 }
 
 }  // namespace lobe::render

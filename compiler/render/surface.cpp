@@ -1,6 +1,8 @@
 #include "render/surface.h"
 
+#include "analyze/residual/surface.h"
 #include "evaluate/tape.h"
+#include "scene/color.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +16,6 @@ Texel texel(const scene::Pixels& pixels, int x, int y)
 {
     const float* const at = &pixels.rgba[4 * (static_cast<std::size_t>(y) * pixels.width + x)];
     return {at[0], at[1], at[2], at[3]};
-}
-
-float decoded(float x)
-{
-    return x <= 0.04045F ? x / 12.92F : std::pow((x + 0.055F) / 1.055F, 2.4F);
 }
 
 int wrapped(int i, int size, bool repeats)
@@ -50,8 +47,8 @@ Texel sample(const scene::Scene& scene, const scene::Texture& texture, const Sur
                 *pixels, wrapped(static_cast<int>(left) + dx, pixels->width, texture.repeats_u),
                 wrapped(static_cast<int>(top) + dy, pixels->height, texture.repeats_v));
             for (int c = 0; c < 4; ++c)
-                sum[c] +=
-                    static_cast<float>(weight) * (is_srgb && c < 3 ? decoded(one[c]) : one[c]);
+                sum[c] += static_cast<float>(weight) *
+                          (is_srgb && c < 3 ? scene::linear_of_srgb(one[c]) : one[c]);
         }
     return sum;
 }
@@ -269,20 +266,14 @@ std::optional<std::size_t> MaterialValues::find(std::string_view column) const
 std::array<double, 3> MaterialValues::dielectric_f0(const SurfacePoint& point) const
 {
     const Given& given = given_[point.material];
-    double f0_of_index = 0.04;
-    if (given.ior != nullptr) {
-        const double n = Sampled(scene_, *given.ior, point)[0];
-        f0_of_index = (n - 1) * (n - 1) / ((n + 1) * (n + 1));
-    }
-    double strength = 1;
-    if (given.specular != nullptr) strength = Sampled(scene_, *given.specular, point)[0];
+    const auto sampled = [&](const scene::Value* value, std::size_t c, double otherwise) {
+        return value == nullptr ? otherwise : Sampled(scene_, *value, point)[c];
+    };
+    const double ior = sampled(given.ior, 0, 1.5);
+    const double strength = sampled(given.specular, 0, 1);
     std::array<double, 3> out{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        double color = 1;
-        if (given.specular_color != nullptr)
-            color = Sampled(scene_, *given.specular_color, point)[c];
-        out[c] = std::min(f0_of_index * color, 1.0) * strength;
-    }
+    for (std::size_t c = 0; c < 3; ++c)
+        out[c] = analyze::dielectric_f0(ior, sampled(given.specular_color, c, 1), strength);
     return out;
 }
 

@@ -1,22 +1,16 @@
 // Pictures: where their bytes are, and what their channels hold.
 #include "scene/images.h"
 
+#include "scene/color.h"
 #include "scene/pictures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace lobe::scene {
 namespace {
-
-/// [IEC61966-2-1]
-float srgb_to_linear(float value)
-{
-    return value <= 0.04045F ? value / 12.92F : std::pow((value + 0.055F) / 1.055F, 2.4F);
-}
 
 /// Calls `each(texel, channel, code)` for all codes of a picture.
 template <typename Each>
@@ -50,8 +44,8 @@ void find_channels(const Raster& raster, Image& image)
                                    !has_between[channel]};
     // The curve rises, so ends go to ends, and it keeps 0 and 1.
     for (std::size_t channel = 0; channel < 3; ++channel)
-        image.linear[channel] = {srgb_to_linear(image.channels[channel].low),
-                                 srgb_to_linear(image.channels[channel].high),
+        image.linear[channel] = {linear_of_srgb(image.channels[channel].low),
+                                 linear_of_srgb(image.channels[channel].high),
                                  image.channels[channel].only_ends};
 }
 

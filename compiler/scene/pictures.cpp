@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <csetjmp>
 #include <cstring>
 #include <memory>
@@ -137,6 +138,41 @@ Picture decode_png(std::string_view bytes, std::size_t most_texels)
     return {std::move(raster), "", false};
 }
 
+// ---- PNG, written
+
+extern "C" {
+
+static void append_png_bytes(png_structp png, png_bytep from, std::size_t count)
+{
+    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(from), count);
+}
+
+static void flush_nothing(png_structp) {}
+}
+
+bool write_png(png_structp png, png_infop info, const PngTexels& texels, int level, png_bytepp rows)
+{
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    constexpr int unfiltered = PNG_FILTER_NONE;
+    const int color = texels.components == 1   ? PNG_COLOR_TYPE_GRAY
+                      : texels.components == 3 ? PNG_COLOR_TYPE_RGB
+                                               : PNG_COLOR_TYPE_RGB_ALPHA;
+    png_set_IHDR(png, info, static_cast<png_uint_32>(texels.width),
+                 static_cast<png_uint_32>(texels.height), texels.is_wide ? 16 : 8, color,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_compression_level(png, level);
+    if (level == 0) png_set_filter(png, PNG_FILTER_TYPE_BASE, unfiltered);
+    png_write_info(png, info);
+    png_write_image(png, rows);
+    png_write_end(png, nullptr);
+    return true;
+}
+
+struct PngWriteDestroy {
+    png_infop* info;
+    void operator()(png_struct* png) const { png_destroy_write_struct(&png, info); }
+};
+
 // ---- JPEG
 
 struct JpegDestroy {
@@ -183,6 +219,36 @@ Picture decode(std::string_view bytes, std::size_t most_texels)
         return unreadable("WebP is not decoded");
     if (bytes.starts_with("DDS ")) return unreadable("DDS is not decoded");
     return unreadable("these bytes are neither PNG nor JPEG");
+}
+
+std::string encode_png(const PngTexels& texels, bool is_packed)
+{
+    const auto height = static_cast<std::size_t>(texels.height);
+    const std::size_t row_bytes = texels.bytes.size() / height;
+    assert(row_bytes ==
+           static_cast<std::size_t>(texels.width * texels.components) * (texels.is_wide ? 2 : 1));
+    std::vector<png_bytep> rows(height);
+    for (std::size_t row = 0; row < height; ++row)
+        rows[row] =
+            const_cast<png_bytep>(&texels.bytes[row * row_bytes]);  // libpng only reads them
+
+    std::string file;
+    PngInput errors{};
+    png_infop info = nullptr;
+    const std::unique_ptr<png_struct, PngWriteDestroy> owned{
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &errors, keep_png_error, ignore_png_warning),
+        PngWriteDestroy{&info}};
+    png_structp png = owned.get();
+    if (png != nullptr) info = png_create_info_struct(png);
+    constexpr int stored = 0;
+    constexpr int thorough = 6;  // zlib's own default
+    [[maybe_unused]] bool is_written = false;
+    if (info != nullptr) {
+        png_set_write_fn(png, &file, append_png_bytes, flush_nothing);
+        is_written = write_png(png, info, texels, is_packed ? thorough : stored, rows.data());
+    }
+    assert(is_written);  // memory is all that it needs
+    return file;
 }
 
 }  // namespace lobe::scene

@@ -56,6 +56,32 @@ TEST_CASE("every kind of PNG becomes four channels, as stored")
           0);
 }
 
+TEST_CASE("what is written as a PNG is read again, packed or not")
+{
+    std::vector<std::uint8_t> bytes;
+    for (int at = 0; at < 2 * 3 * 4 * 2; ++at) bytes.push_back(static_cast<std::uint8_t>(37 * at));
+    for (const int components : {1, 3, 4})
+        for (const bool is_wide : {false, true})
+            for (const bool is_packed : {false, true}) {
+                CAPTURE(components, is_wide, is_packed);
+                const std::size_t size = is_wide ? 2 : 1;
+                scene::PngTexels texels{2, 3, components, is_wide, bytes};
+                texels.bytes.resize(6 * components * size);
+                const scene::Picture back = scene::decode(encode_png(texels, is_packed), 6);
+                REQUIRE(back.raster);
+                CHECK(back.raster->width == 2);
+                CHECK(back.raster->height == 3);
+                CHECK(back.raster->is_wide == is_wide);
+                for (std::size_t texel = 0; texel < 6; ++texel)
+                    for (std::size_t byte = 0; byte < components * size; ++byte)
+                        CHECK(back.raster->bytes[4 * size * texel + byte] ==
+                              texels.bytes[components * size * texel + byte]);
+            }
+    // Rows that are not packed stand in the file as they are.
+    const scene::PngTexels row{3, 1, 1, false, {'r', 'o', 'w'}};
+    CHECK(encode_png(row, false).find("row") != std::string::npos);
+}
+
 TEST_CASE("sixteen bits are kept")
 {
     const auto wide = texels(png({.bits = 16, .color = PngColor::rgba},

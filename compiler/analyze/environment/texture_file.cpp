@@ -1,5 +1,7 @@
 #include "analyze/environment/texture_file.h"
 
+#include "scene/pictures.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,11 +16,6 @@ namespace {
 void little(std::string& out, std::uint32_t value, int bytes)
 {
     for (int i = 0; i < bytes; ++i) out += static_cast<char>((value >> (8 * i)) & 0xffU);
-}
-
-void big(std::string& out, std::uint32_t value, int bytes)
-{
-    for (int i = bytes; i-- > 0;) out += static_cast<char>((value >> (8 * i)) & 0xffU);
 }
 
 // ---- DDS: "DDS ", DDS_HEADER, DDS_HEADER_DXT10, texels
@@ -53,78 +50,25 @@ std::string to_dds(const BakedTable& table)
     return out;
 }
 
-// ---- PNG: the signature, IHDR, IDAT with an uncompressed zlib stream, IEND
-
-std::uint32_t crc32(std::string_view bytes)
-{
-    std::uint32_t crc = 0xffffffffU;
-    for (const char byte : bytes) {
-        crc ^= static_cast<unsigned char>(byte);
-        for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1U) != 0 ? 0xedb88320U : 0);
-    }
-    return ~crc;
-}
-
-std::uint32_t adler32(std::string_view bytes)
-{
-    std::uint32_t a = 1;
-    std::uint32_t b = 0;
-    for (const char byte : bytes) {
-        a = (a + static_cast<unsigned char>(byte)) % 65521;
-        b = (b + a) % 65521;
-    }
-    return b << 16 | a;
-}
-
-void chunk(std::string& out, std::string_view type, const std::string& content)
-{
-    big(out, static_cast<std::uint32_t>(content.size()), 4);
-    const std::string checked = std::string{type} + content;
-    out += checked;
-    big(out, crc32(checked), 4);
-}
+// ---- PNG
 
 std::string to_png(const BakedTable& table)
 {
-    const int depth = bytes_of(table.format.kind);
     const auto channels = static_cast<std::size_t>(table.format.channels);
     const std::size_t shown = channels == 2 ? 3 : channels;
-    constexpr std::uint32_t gray = 0, rgb = 2, rgba = 6;
-
-    std::string raw;
-    for (std::size_t row = 0; row < table.height(); ++row) {
-        raw += '\0';  // no filter
-        for (std::size_t column = 0; column < table.width(); ++column)
-            for (std::size_t channel = 0; channel < shown; ++channel)
-                big(raw,
-                    channel < channels
-                        ? table.codes[(row * table.width() + column) * channels + channel]
-                        : 0,
-                    depth);
-    }
-    std::string stream = "\x78\x01";
-    constexpr std::size_t largest_block = 65535;
-    for (std::size_t begin = 0; begin < raw.size(); begin += largest_block) {
-        const std::size_t size = std::min(largest_block, raw.size() - begin);
-        stream += begin + size == raw.size() ? '\1' : '\0';
-        little(stream, static_cast<std::uint32_t>(size), 2);
-        little(stream, ~static_cast<std::uint32_t>(size), 2);
-        stream += raw.substr(begin, size);
-    }
-    big(stream, adler32(raw), 4);
-
-    std::string header;
-    big(header, static_cast<std::uint32_t>(table.width()), 4);
-    big(header, static_cast<std::uint32_t>(table.height()), 4);
-    big(header, static_cast<std::uint32_t>(8 * depth), 1);
-    big(header, shown == 1 ? gray : shown == 3 ? rgb : rgba, 1);
-    big(header, 0, 3);
-
-    std::string out = "\x89PNG\r\n\x1a\n";
-    chunk(out, "IHDR", header);
-    chunk(out, "IDAT", stream);
-    chunk(out, "IEND", {});
-    return out;
+    scene::PngTexels texels;
+    texels.width = static_cast<int>(table.width());
+    texels.height = static_cast<int>(table.height());
+    texels.components = static_cast<int>(shown);
+    texels.is_wide = table.format.kind == TexelKind::unorm16;
+    for (std::size_t texel = 0; texel < table.width() * table.height(); ++texel)
+        for (std::size_t channel = 0; channel < shown; ++channel) {
+            const std::uint32_t code =
+                channel < channels ? table.codes[texel * channels + channel] : 0;
+            if (texels.is_wide) texels.bytes.push_back(static_cast<std::uint8_t>(code >> 8));
+            texels.bytes.push_back(static_cast<std::uint8_t>(code));
+        }
+    return scene::encode_png(texels, false);
 }
 
 // ---- text
