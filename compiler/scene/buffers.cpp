@@ -17,11 +17,8 @@ constexpr std::size_t most_bytes = std::size_t{1} << 48;
 
 Resource read_resource(const View& uri, const Fetch& fetch, const Limits& limits)
 {
-    const auto* text = uri.value().get_ptr<const std::string*>();
-    if (text == nullptr) {
-        uri.text();  // says what is wrong
-        return {std::nullopt, true, ""};
-    }
+    const auto text = uri.text();
+    if (!text) return {std::nullopt, true, ""};
     auto resolved = resolve(*text);
     if (const auto* bad = std::get_if<BadUri>(&resolved)) {
         uri.error(bad->message, bad->help);

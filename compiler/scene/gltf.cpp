@@ -71,10 +71,10 @@ void check_asset(const View& root)
 /// True if `KHR_mesh_quantization` is required.
 bool check_extensions(const View& root)
 {
-    std::vector<std::string> used;
+    std::vector<std::string_view> used;
     if (const auto listed = root.array("extensionsUsed"))
         for (std::size_t index = 0; index < listed->size(); ++index)
-            if (auto name = (*listed)[index].text()) used.push_back(std::move(*name));
+            if (const auto name = (*listed)[index].text()) used.push_back(*name);
     bool quantized = false;
     if (const auto listed = root.array("extensionsRequired"))
         for (std::size_t index = 0; index < listed->size(); ++index) {
@@ -163,7 +163,7 @@ ReadScene read_gltf(std::string_view bytes, const std::string& path, const Fetch
                                          options.limits.file_bytes));
     } else if (const auto container = open_container(bytes, complaints)) {
         if (const auto json = parse_json(container->json, complaints)) {
-            const View root{*json, "", complaints};
+            const View root{json->root(), complaints};
             if (root.expect_object()) {
                 scene = read_scene(root, container->binary, fetch, options);
                 scene->path = path;

@@ -3,8 +3,11 @@
 #include "scene/json.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,40 +35,66 @@ std::string reason(std::string_view message)
     return std::string{message};
 }
 
-/// Builds the tree from events. `open_` are the objects and arrays around the current value.
-class Builder : public json::json_sax_t {
+/// A part of a pointer, with its slash.
+void append(Pointer& pointer, std::string_view name)
+{
+    pointer.push_back('/');
+    if (name.find_first_of("~/") == name.npos) {
+        pointer.append(name);
+        return;
+    }
+    for (const char character : name) {
+        if (character == '~')
+            pointer += "~0";
+        else if (character == '/')
+            pointer += "~1";
+        else
+            pointer.push_back(character);
+    }
+}
+
+}  // namespace
+
+/// Builds the tree from events. Finished values wait in `waiting_` until what they are part of
+/// ends; then they move to where they stay, side by side.
+class JsonBuilder {
 public:
-    Builder(std::string_view text, Complaints& complaints) : text_{text}, complaints_{complaints} {}
-
-    json root;
-
-    bool null() override { return put(nullptr); }
-    bool boolean(bool value) override { return put(value); }
-    bool number_integer(number_integer_t value) override { return put(value); }
-    bool number_unsigned(number_unsigned_t value) override { return put(value); }
-    bool number_float(number_float_t value, const string_t&) override { return put(value); }
-    bool string(string_t& value) override { return put(std::move(value)); }
-    bool binary(binary_t&) override { return false; }  // no JSON text has it
-
-    bool start_object(std::size_t) override { return open(json::object()); }
-    bool start_array(std::size_t) override { return open(json::array()); }
-    bool end_object() override { return close(); }
-    bool end_array() override { return close(); }
-
-    bool key(string_t& name) override
+    JsonBuilder(std::string_view text, Complaints& complaints)
+        : text_{text}, complaints_{complaints}
     {
-        json& object = *open_.back();
-        const auto [slot, is_new] = object.get_ref<json::object_t&>().emplace(name, nullptr);
-        key_ = name;
-        slot_ = &slot->second;
-        if (is_new) return true;
-        complaints_.error(here(), fmt::format("`{}` is given twice", name));
-        return false;
+    }
+
+    JsonDocument take()
+    {
+        assert(waiting_.size() == 1);
+        const std::span<const Json> root = settle(waiting_);
+        document_.root_ = root.data();
+        return std::move(document_);
+    }
+
+    // ---- what nlohmann's parser calls; `false` ends it
+
+    bool null() { return put(Json{}); }
+    bool boolean(bool value) { return put(Json{value}); }
+    bool number_integer(json::number_integer_t value) { return number(value); }
+    bool number_unsigned(json::number_unsigned_t value) { return number(value); }
+    bool number_float(json::number_float_t value, const json::string_t&) { return number(value); }
+    bool string(json::string_t& value) { return put(Json{kept(value)}); }
+    bool binary(json::binary_t&) { return false; }  // no JSON text has it
+
+    bool start_object(std::size_t) { return open(Json::Kind::object); }
+    bool start_array(std::size_t) { return open(Json::Kind::array); }
+    bool end_object() { return close(); }
+    bool end_array() { return close(); }
+
+    bool key(json::string_t& name)
+    {
+        key_ = kept(name);
+        return true;
     }
 
     /// `position` counts from 1; at the end it is one past the text.
-    bool parse_error(std::size_t position, const std::string&,
-                     const json::exception& error) override
+    bool parse_error(std::size_t position, const std::string&, const json::exception& error)
     {
         constexpr int number_overflow = 406;
         if (error.id == number_overflow)
@@ -79,57 +108,103 @@ public:
     }
 
 private:
-    template <typename Value>
-    bool put(Value&& value)
+    /// An object or array that has not ended.
+    struct Open {
+        Json::Kind kind{};
+        std::string_view name;  ///< the member of its parent that it is
+        std::size_t first = 0;  ///< in `waiting_`: its own values begin there
+    };
+
+    template <typename Number>
+    bool number(Number value)
     {
-        next() = std::forward<Value>(value);
-        key_.clear();
+        return put(Json{static_cast<double>(value)});
+    }
+
+    bool put(Json value)
+    {
+        value.name_ = key_.data();
+        value.name_size_ = static_cast<std::uint32_t>(key_.size());
+        waiting_.push_back(value);
+        key_ = {};
         return true;
     }
 
-    /// The place of the value that comes now.
-    json& next()
-    {
-        if (open_.empty()) return root;
-        json& parent = *open_.back();
-        if (parent.is_object()) return *slot_;
-        return parent.get_ref<json::array_t&>().emplace_back();
-    }
-
-    bool open(json value)
+    bool open(Json::Kind kind)
     {
         if (open_.size() == deepest_json) {
             complaints_.error(here(), fmt::format("more than {} levels deep", deepest_json));
             return false;
         }
-        json& place = next();
-        keys_.push_back(key_);
-        place = std::move(value);
-        open_.push_back(&place);
-        key_.clear();
+        open_.push_back({kind, key_, waiting_.size()});
+        key_ = {};
         return true;
     }
 
     bool close()
     {
+        const Open ended = open_.back();
+        const std::span<Json> children = std::span{waiting_}.subspan(ended.first);
+        if (ended.kind == Json::Kind::object) {
+            std::ranges::sort(children, {}, &Json::name);
+            const auto twice = std::ranges::adjacent_find(children, {}, &Json::name);
+            if (twice != children.end()) {
+                complaints_.error(here() / twice->name(),
+                                  fmt::format("`{}` is given twice", twice->name()));
+                return false;
+            }
+        }
+        const Json value{ended.kind, settle(children)};
+        waiting_.resize(ended.first);
         open_.pop_back();
-        keys_.pop_back();
-        key_.clear();
-        return true;
+        key_ = ended.name;
+        return put(value);
     }
 
-    /// Of the value that comes now. Arrays grow only at their end, so that is where it is.
+    /// The values at the place where they stay. What is in them learns where that is.
+    std::span<const Json> settle(std::span<const Json> values)
+    {
+        constexpr std::size_t block = 4096;
+        if (free_values_.size() < values.size()) {
+            const std::size_t size = std::max(block, values.size());
+            free_values_ = {document_.values_.emplace_back(new Json[size]).get(), size};
+        }
+        const std::span<Json> settled = free_values_.first(values.size());
+        free_values_ = free_values_.subspan(values.size());
+        std::ranges::copy(values, settled.begin());
+        for (const Json& value : settled)
+            if (value.is(Json::Kind::array) || value.is(Json::Kind::object))
+                for (const Json& child : value.children())
+                    const_cast<Json&>(child).parent_ = &value;
+        return settled;
+    }
+
+    /// The text at a place where it stays; `text` may be moved from.
+    std::string_view kept(json::string_t& text)
+    {
+        constexpr std::size_t block = std::size_t{1} << 16;
+        constexpr std::size_t is_long = block / 16;
+        if (text.size() > is_long) return document_.long_texts_.emplace_back(std::move(text));
+        if (free_characters_.size() < text.size())
+            free_characters_ = {document_.characters_.emplace_back(new char[block]).get(), block};
+        std::ranges::copy(text, free_characters_.begin());
+        const std::string_view where{free_characters_.data(), text.size()};
+        free_characters_ = free_characters_.subspan(text.size());
+        return where;
+    }
+
+    /// Of the value that comes now.
     Pointer here() const
     {
         Pointer pointer;
         for (std::size_t level = 0; level < open_.size(); ++level) {
-            const json& parent = *open_[level];
             const bool is_last = level + 1 == open_.size();
-            const std::string& name = is_last ? key_ : keys_[level + 1];
-            if (parent.is_object()) {
+            if (open_[level].kind == Json::Kind::object) {
+                const std::string_view name = is_last ? key_ : open_[level + 1].name;
                 if (!is_last || !name.empty()) pointer = pointer / name;
             } else {
-                pointer = pointer / (is_last ? parent.size() : parent.size() - 1);
+                const std::size_t end = is_last ? waiting_.size() : open_[level + 1].first;
+                pointer = pointer / (end - open_[level].first);
             }
         }
         return pointer;
@@ -137,28 +212,45 @@ private:
 
     std::string_view text_;
     Complaints& complaints_;
-    std::vector<json*> open_;
-    std::vector<std::string> keys_;  ///< per open level, the member of its parent that it is
-    std::string key_;                ///< the member of the innermost object that comes now
-    json* slot_ = nullptr;           ///< its place
+    JsonDocument document_;
+    std::span<Json> free_values_;
+    std::span<char> free_characters_;
+    std::vector<Open> open_;
+    std::vector<Json> waiting_;
+    std::string_view key_;  ///< the member of the innermost object that comes now
 };
 
-}  // namespace
+Pointer Json::pointer() const
+{
+    std::array<const Json*, deepest_json> path{};
+    std::size_t depth = 0;
+    for (const Json* at = this; at->parent_ != nullptr; at = at->parent_) path[depth++] = at;
+    Pointer pointer;
+    pointer.reserve(64);  // as long as most are
+    for (std::size_t i = depth; i-- > 0;) {
+        const Json* const parent = path[i]->parent_;
+        if (parent->is(Kind::object))
+            append(pointer, path[i]->name());
+        else
+            append(pointer, fmt::format_int(path[i] - parent->children().data()).c_str());
+    }
+    return pointer;
+}
+
+const Json* Json::find(std::string_view name) const
+{
+    if (!is(Kind::object)) return nullptr;
+    const auto members = children();
+    const auto found = std::ranges::lower_bound(members, name, {}, &Json::name);
+    return found != members.end() && found->name() == name ? &*found : nullptr;
+}
 
 Pointer operator/(const Pointer& parent, std::string_view name)
 {
     Pointer pointer;
     pointer.reserve(parent.size() + 1 + name.size());
-    pointer.append(parent).push_back('/');
-    if (name.find_first_of("~/") == name.npos) return pointer.append(name);
-    for (const char character : name) {
-        if (character == '~')
-            pointer += "~0";
-        else if (character == '/')
-            pointer += "~1";
-        else
-            pointer.push_back(character);
-    }
+    pointer = parent;
+    append(pointer, name);
     return pointer;
 }
 
@@ -167,15 +259,15 @@ Pointer operator/(const Pointer& parent, std::size_t index)
     return parent + '/' + std::to_string(index);
 }
 
-std::optional<nlohmann::json> parse_json(std::string_view text, Complaints& complaints)
+std::optional<JsonDocument> parse_json(std::string_view text, Complaints& complaints)
 {
     if (text.starts_with("\xEF\xBB\xBF")) {
         complaints.error("", "a byte order mark comes before the JSON");
         return std::nullopt;
     }
-    Builder builder{text, complaints};
+    JsonBuilder builder{text, complaints};
     if (!json::sax_parse(text, &builder)) return std::nullopt;
-    return std::move(builder.root);
+    return builder.take();
 }
 
 }  // namespace lobe::scene

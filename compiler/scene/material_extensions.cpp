@@ -91,7 +91,7 @@ void read_extensions(const View& view, Textures& textures, Material& material)
 {
     const auto extensions = view.object("extensions");
     if (!extensions) return;
-    for (const std::string& name : extensions->names()) extensions->object(name);
+    for (const std::string_view name : extensions->names()) extensions->object(name);
     const auto find = [&](std::string_view name) {  // what is no object was complained of
         auto found = extensions->member(name);
         return found && found->is_object() ? found : std::nullopt;

@@ -9,8 +9,6 @@
 namespace lobe::scene {
 namespace {
 
-using json = nlohmann::json;
-
 Material read_material(const View& view, Textures& textures, std::size_t material_count)
 {
     static const Factor base_color{.name = "baseColorFactor",
@@ -28,14 +26,12 @@ Material read_material(const View& view, Textures& textures, std::size_t materia
                                  .texture = "emissiveTexture",
                                  .channels = {0, 1, 2},
                                  .is_srgb = true};
-    static const json nothing = json::object();
 
     if (!view.expect_object()) return default_material();
     Material material;
     material.pointer = view.pointer();
     material.name = view.text("name");
-    const View base = view.object("pbrMetallicRoughness")
-                          .value_or(View{nothing, view.pointer(), view.complaints()});
+    const View base = view.object_or_empty("pbrMetallicRoughness");
     material.base_color = read_factor(base, base_color, textures);
     material.metallic = read_factor(base, metallic, textures);
     material.roughness = read_factor(base, roughness, textures);
@@ -112,7 +108,7 @@ Value read_factor(const View& holder, const Factor& factor, Textures& textures)
         value.low = factor.otherwise;
     }
     value.high = value.low;
-    value.offset.assign(value.low.size(), 0);
+    value.offset.resize(value.low.size());
     if (factor.texture.empty()) return value;
     const auto reference = holder.object(factor.texture);
     if (!reference) return value;
@@ -126,11 +122,10 @@ Value read_factor(const View& holder, const Factor& factor, Textures& textures)
 
 Material default_material()
 {
-    const auto constant = [](std::vector<double> components) {
+    const auto constant = [](const Components& components) {
         Value value;
-        value.offset.assign(components.size(), 0);
-        value.low = components;
-        value.high = std::move(components);
+        value.low = value.high = components;
+        value.offset.resize(components.size());
         return value;
     };
     Material material;

@@ -17,8 +17,8 @@ Material default_material();
 
 /// A member that is a factor, and the texture beside it that is multiplied in.
 struct Factor {
-    std::string_view name;          ///< of the member
-    std::vector<double> otherwise;  ///< per component
+    std::string_view name;  ///< of the member
+    Components otherwise;   ///< per component
     Bounds bounds = unit_bounds;
     std::string_view texture = {};  ///< of the member with the texture; empty: there is none
     std::vector<int> channels = {};

@@ -95,7 +95,7 @@ private:
     {
         attributes_.clear();
         vertex_count_ = 0;
-        for (const std::string& name : attributes.names()) {
+        for (const std::string_view name : attributes.names()) {
             const auto index = attributes.index(name, accessors_.size(), "accessors");
             if (!index || !accessors_[*index]) continue;
             const Accessor& accessor = *accessors_[*index];

@@ -67,9 +67,8 @@ Matrix read_transform(const View& view)
         view.member("translation") || view.member("rotation") || view.member("scale");
     if (const auto matrix = view.member("matrix")) {
         if (is_split) matrix->error("`matrix` stands beside `translation`, `rotation` or `scale`");
-        const auto numbers = matrix->numbers({identity.begin(), identity.end()});
-        Matrix result{};
-        std::ranges::copy(numbers, result.begin());
+        Matrix result = identity;
+        matrix->fill(result);
         return result;
     }
     if (!is_split) return identity;

@@ -14,34 +14,32 @@
 namespace lobe::scene {
 namespace {
 
-constexpr std::size_t most_components = 4;
-
 /// A number, or an array of up to four.
-std::vector<double> components(const View& view)
+Components components(const View& view)
 {
     if (!view.is_array()) return {view.number(0)};
-    if (view.size() == 0 || view.size() > most_components) {
+    if (view.size() == 0 || view.size() > Components::most) {
         view.error(
-            fmt::format("{} numbers; a parameter has 1 to {}", view.size(), most_components));
+            fmt::format("{} numbers; a parameter has 1 to {}", view.size(), Components::most));
         return {0};
     }
-    std::vector<double> numbers;
+    Components numbers;
     for (std::size_t index = 0; index < view.size(); ++index)
         numbers.push_back(view[index].number(0));
     return numbers;
 }
 
 /// As many numbers as `count`; one number stands for all.
-std::vector<double> components(const View& holder, std::string_view name, std::size_t count,
-                               double otherwise)
+Components components(const View& holder, std::string_view name, std::size_t count,
+                      double otherwise)
 {
     const auto view = holder.member(name);
-    if (!view) return std::vector<double>(count, otherwise);
-    std::vector<double> numbers = components(*view);
+    if (!view) return Components(count, otherwise);
+    Components numbers = components(*view);
     if (numbers.size() == 1) numbers.resize(count, numbers[0]);
     if (numbers.size() == count) return numbers;
     view->error(fmt::format("{} numbers for {} components", numbers.size(), count));
-    return std::vector<double>(count, otherwise);
+    return Components(count, otherwise);
 }
 
 /// Letters of `rgba`, at least one and at most `most`.
@@ -158,8 +156,9 @@ void read_parameters(const View& extras, Textures& textures, std::size_t materia
 {
     extras.allow_only({"layers", "parameters"});
     if (const auto parameters = extras.object("parameters"))
-        for (const std::string& name : parameters->names())
-            material.parameters.emplace(name, read_value(*parameters->member(name), textures));
+        for (const std::string_view name : parameters->names())
+            material.parameters.emplace_hint(material.parameters.end(), name,
+                                             read_value(*parameters->member(name), textures));
     if (const auto layers = extras.array("layers"))
         for (std::size_t index = 0; index < layers->size(); ++index)
             if (auto layer = read_layer((*layers)[index], textures, material_count))

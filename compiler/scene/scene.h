@@ -6,6 +6,8 @@
 // mean for a model is analyze/residual/facts.h's business.
 #pragma once
 
+#include "scene/components.h"
+
 #include <array>
 #include <cstdint>
 #include <map>
@@ -67,9 +69,9 @@ struct Texture {
 /// one, plus `offset`. Where the file gives a range (`{"min": …, "max": …}` in `extras.lobe`: game
 /// code sets the value), low and high differ.
 struct Value {
-    std::vector<double> low;   ///< one per component; of the factor
-    std::vector<double> high;  ///< the same as `low` for a constant
-    std::vector<double> offset;
+    Components low;   ///< one per component; of the factor
+    Components high;  ///< the same as `low` for a constant
+    Components offset;
     std::optional<Texture> texture;
     std::vector<int> channels;  ///< of the texture, one per component: 0 r … 3 a
     bool is_srgb = false;       ///< the texture's r, g and b are to be decoded before use; a is not
@@ -143,11 +145,12 @@ struct Environment {
     double intensity = 1;
     std::array<double, 4> rotation{0, 0, 0, 1};  ///< a quaternion, x y z w
     /// Irradiance at the unit normal n is the sum of these times the real spherical harmonics Y(n)
-    /// of the world's axes, in the order (0,0) (1,-1) (1,0) (1,1) (2,-2) … (2,2): y is (1,-1), z
+    /// of the cube's axes, in the order (0,0) (1,-1) (1,0) (1,1) (2,-2) … (2,2): y is (1,-1), z
     /// (1,0), x (1,1).
     std::array<Color, 9> irradiance{};
-    /// Prefiltered cube maps: mips from the sharpest, six faces each (+x -x +y -y +z -z), indices
-    /// into Scene::images. The pictures are RGBD: radiance is sRGB-decoded rgb over alpha.
+    /// Prefiltered cube maps: mips from the sharpest, six faces each (+x -x +y -y +z -z, as seen
+    /// from the middle: the cube's z is the world's -z), indices into Scene::images. The pictures
+    /// are RGBD: radiance is sRGB-decoded rgb over alpha. docs/scenes.md has the sources.
     std::vector<std::array<std::size_t, 6>> specular;
     int specular_size = 0;  ///< texels along an edge of the sharpest mip
 };

@@ -12,21 +12,15 @@
 namespace lobe::scene {
 namespace {
 
-using nlohmann::json;
-
-std::string kind_of(const json& value)
+std::string kind_of(const Json& value)
 {
-    switch (value.type()) {
-    case json::value_t::object: return "an object";
-    case json::value_t::array: return "an array";
-    case json::value_t::string: return "a string";
-    case json::value_t::boolean: return "true or false";
-    case json::value_t::number_integer:
-    case json::value_t::number_unsigned:
-    case json::value_t::number_float: return "a number";
-    case json::value_t::null:
-    case json::value_t::binary:
-    case json::value_t::discarded: break;
+    switch (value.kind()) {
+    case Json::Kind::object: return "an object";
+    case Json::Kind::array: return "an array";
+    case Json::Kind::string: return "a string";
+    case Json::Kind::boolean: return "true or false";
+    case Json::Kind::number: return "a number";
+    case Json::Kind::null: break;
     }
     return "null";
 }
@@ -44,17 +38,17 @@ void expected(const View& view, std::string_view what)
 }
 
 /// Up to 2^53, where every whole number is one of a JSON reader's too.
-std::optional<std::size_t> whole_number(const json& value)
+std::optional<std::size_t> whole_number(const Json& value)
 {
-    if (!value.is_number()) return std::nullopt;
-    const double number = value.get<double>();
+    if (!value.is(Json::Kind::number)) return std::nullopt;
+    const double number = value.number();
     constexpr double most = 9007199254740992;
     if (number < 0 || number > most || number != std::floor(number)) return std::nullopt;
     return static_cast<std::size_t>(number);
 }
 
 /// Names are the file's and may be long.
-std::string quoted(const std::string& text)
+std::string quoted(std::string_view text)
 {
     constexpr std::size_t longest = 60;
     if (text.size() <= longest) return fmt::format("`{}`", text);
@@ -81,20 +75,16 @@ std::string describe(const Bounds& bounds)
 
 void View::error(std::string message, std::string help) const
 {
-    complaints_->error(pointer_, std::move(message), std::move(help));
+    complaints_->error(pointer(), std::move(message), std::move(help));
 }
 
-View View::operator[](std::size_t index) const
-{
-    return {(*value_)[index], pointer_ / index, *complaints_};
-}
+View View::operator[](std::size_t index) const { return {value_->children()[index], *complaints_}; }
 
-std::vector<std::string> View::names() const
+std::vector<std::string_view> View::names() const
 {
-    std::vector<std::string> names;
+    std::vector<std::string_view> names;
     if (!is_object()) return names;
-    for (const auto& [name, value] : value_->get_ref<const json::object_t&>())
-        names.push_back(name);
+    for (const Json& member : value_->children()) names.push_back(member.name());
     return names;
 }
 
@@ -110,7 +100,7 @@ double View::number(double otherwise, const Bounds& bounds) const
         expected(*this, "a number");
         return otherwise;
     }
-    const double number = value_->get<double>();
+    const double number = value_->number();
     if (!std::isfinite(number)) {
         error("this number is not finite in 64 bits");
         return otherwise;
@@ -122,14 +112,19 @@ double View::number(double otherwise, const Bounds& bounds) const
     return number;
 }
 
-std::vector<double> View::numbers(std::vector<double> otherwise, const Bounds& bounds) const
+void View::fill(std::span<double> into, const Bounds& bounds) const
 {
-    if (!is_array() || size() != otherwise.size()) {
-        expected(*this, fmt::format("an array of {} numbers", otherwise.size()));
-        return otherwise;
+    if (!is_array() || size() != into.size()) {
+        expected(*this, fmt::format("an array of {} numbers", into.size()));
+        return;
     }
-    for (std::size_t component = 0; component < otherwise.size(); ++component)
-        otherwise[component] = (*this)[component].number(otherwise[component], bounds);
+    for (std::size_t at = 0; at < into.size(); ++at)
+        into[at] = (*this)[at].number(into[at], bounds);
+}
+
+Components View::numbers(Components otherwise, const Bounds& bounds) const
+{
+    fill({otherwise.begin(), otherwise.end()}, bounds);
     return otherwise;
 }
 
@@ -148,20 +143,18 @@ std::optional<std::size_t> View::index(std::size_t size, std::string_view what) 
     return std::nullopt;
 }
 
-std::optional<std::string> View::text() const
+std::optional<std::string_view> View::text() const
 {
-    if (const auto* text = value_->get_ptr<const json::string_t*>()) return *text;
+    if (value_->is(Json::Kind::string)) return value_->text();
     expected(*this, "a string");
     return std::nullopt;
 }
 
 std::optional<View> View::member(std::string_view name) const
 {
-    const auto* members = value_->get_ptr<const json::object_t*>();
-    if (members == nullptr) return std::nullopt;
-    const auto found = members->find(name);
-    if (found == members->end()) return std::nullopt;
-    return View{found->second, pointer_ / name, *complaints_};
+    const Json* const found = value_->find(name);
+    if (found == nullptr) return std::nullopt;
+    return View{*found, *complaints_};
 }
 
 std::optional<View> View::object(std::string_view name) const
@@ -169,6 +162,12 @@ std::optional<View> View::object(std::string_view name) const
     auto found = member(name);
     if (found && !found->expect_object()) return std::nullopt;
     return found;
+}
+
+View View::object_or_empty(std::string_view name) const
+{
+    static const Json nothing{Json::Kind::object, {}};
+    return object(name).value_or(View{nothing, *place_, *complaints_});
 }
 
 std::optional<View> View::array(std::string_view name) const
@@ -189,11 +188,11 @@ double View::number(std::string_view name, double otherwise, const Bounds& bound
     return found ? found->number(otherwise, bounds) : otherwise;
 }
 
-std::vector<double> View::numbers(std::string_view name, std::vector<double> otherwise,
-                                  const Bounds& bounds) const
+Components View::numbers(std::string_view name, const Components& otherwise,
+                         const Bounds& bounds) const
 {
     const auto found = member(name);
-    return found ? found->numbers(std::move(otherwise), bounds) : otherwise;
+    return found ? found->numbers(otherwise, bounds) : otherwise;
 }
 
 std::array<double, 4> View::rotation(std::string_view name) const
@@ -221,7 +220,7 @@ std::size_t View::whole(std::string_view name, std::size_t otherwise, std::size_
     if (whole && *whole >= low && *whole <= high) return *whole;
     if (found->is_number())
         found->error(fmt::format("{} is no whole number of at least {} and at most {}",
-                                 found->value_->get<double>(), low, high));
+                                 found->value_->number(), low, high));
     else
         expected(*found, "a whole number");
     return otherwise;
@@ -231,7 +230,7 @@ bool View::flag(std::string_view name, bool otherwise) const
 {
     const auto found = member(name);
     if (!found) return otherwise;
-    if (const auto* flag = found->value_->get_ptr<const json::boolean_t*>()) return *flag;
+    if (found->value_->is(Json::Kind::boolean)) return found->value_->flag();
     expected(*found, "true or false");
     return otherwise;
 }
@@ -240,8 +239,8 @@ std::string View::text(std::string_view name, std::string otherwise) const
 {
     const auto found = member(name);
     if (!found) return otherwise;
-    auto text = found->text();
-    return text ? std::move(*text) : otherwise;
+    const auto text = found->text();
+    return text ? std::string{*text} : otherwise;
 }
 
 std::optional<std::size_t> View::choice(std::string_view name, Names choices) const
@@ -284,12 +283,12 @@ std::optional<View> View::extras() const
 
 void View::allow_only(Names known) const
 {
-    const auto* members = value_->get_ptr<const json::object_t*>();
-    if (members == nullptr) return;
-    for (const auto& [name, value] : *members) {
-        if (std::ranges::find(known, std::string_view{name}) != known.end()) continue;
+    if (!is_object()) return;
+    for (const Json& member : value_->children()) {
+        const std::string_view name = member.name();
+        if (std::ranges::find(known, name) != known.end()) continue;
         const auto near = nearest(name, {known.begin(), known.end()});
-        complaints_->error(pointer_ / name, fmt::format("{} is not known here", quoted(name)),
+        complaints_->error(member.pointer(), fmt::format("{} is not known here", quoted(name)),
                            near ? fmt::format("did you mean `{}`?", *near)
                                 : fmt::format("known are {}", fmt::join(known, ", ")));
     }

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,44 +32,45 @@ using Names = std::initializer_list<std::string_view>;
 
 class View {
 public:
-    View(const nlohmann::json& value, Pointer pointer, Complaints& complaints)
-        : value_{&value}, pointer_{std::move(pointer)}, complaints_{&complaints}
-    {
-    }
+    View(const Json& value, Complaints& complaints) : View{value, value, complaints} {}
 
-    const Pointer& pointer() const { return pointer_; }
-    const nlohmann::json& value() const { return *value_; }
+    Pointer pointer() const { return place_->pointer(); }
+    const Json& value() const { return *value_; }
     Complaints& complaints() const { return *complaints_; }
     void error(std::string message, std::string help = {}) const;
 
     // ---- what this value is; no complaints
-    bool is_object() const { return value_->is_object(); }
-    bool is_array() const { return value_->is_array(); }
-    bool is_number() const { return value_->is_number(); }
+    bool is_object() const { return value_->is(Json::Kind::object); }
+    bool is_array() const { return value_->is(Json::Kind::array); }
+    bool is_number() const { return value_->is(Json::Kind::number); }
     /// Of an array; 0 for anything else.
-    std::size_t size() const { return is_array() ? value_->size() : 0; }
+    std::size_t size() const { return is_array() ? value_->children().size() : 0; }
     /// Of an array, by an index below size().
     View operator[](std::size_t index) const;
     /// Of an object, in alphabetical order; none for anything else.
-    std::vector<std::string> names() const;
+    std::vector<std::string_view> names() const;
 
     // ---- this value, checked
     bool expect_object() const;
     double number(double otherwise, const Bounds& bounds = {}) const;
-    /// As many as `otherwise` has.
-    std::vector<double> numbers(std::vector<double> otherwise, const Bounds& bounds = {}) const;
+    /// As many as `into` has, which keeps its own where these are wrong.
+    void fill(std::span<double> into, const Bounds& bounds = {}) const;
+    Components numbers(Components otherwise, const Bounds& bounds = {}) const;
     /// An index into `what`, of which there are `size`.
     std::optional<std::size_t> index(std::size_t size, std::string_view what) const;
-    std::optional<std::string> text() const;
+    /// It is the document's.
+    std::optional<std::string_view> text() const;
 
     // ---- members of this object, checked; a member that is not there is no error
     std::optional<View> member(std::string_view name) const;
     std::optional<View> object(std::string_view name) const;
+    /// An empty object where this one stands, if there is none.
+    View object_or_empty(std::string_view name) const;
     /// An empty one is as good as none.
     std::optional<View> array(std::string_view name) const;
     double number(std::string_view name, double otherwise, const Bounds& bounds = {}) const;
-    std::vector<double> numbers(std::string_view name, std::vector<double> otherwise,
-                                const Bounds& bounds = {}) const;
+    Components numbers(std::string_view name, const Components& otherwise,
+                       const Bounds& bounds = {}) const;
     /// A unit quaternion, made exactly so; none where it is absent.
     std::array<double, 4> rotation(std::string_view name) const;
     /// A whole number from `low` to `high`.
@@ -91,8 +93,13 @@ public:
     void allow_only(Names known) const;
 
 private:
-    const nlohmann::json* value_;
-    Pointer pointer_;
+    View(const Json& value, const Json& place, Complaints& complaints)
+        : value_{&value}, place_{&place}, complaints_{&complaints}
+    {
+    }
+
+    const Json* value_;
+    const Json* place_;  ///< the value whose pointer it has
     Complaints* complaints_;
 };
 

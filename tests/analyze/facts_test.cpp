@@ -370,9 +370,9 @@ TEST_CASE("an effect that is said to be off is off at every value")
         const auto pick = [&] { return std::floor(4 * unit(random)) / 2; };
         const double low = pick();
         const double high = unit(random) < 0.5 ? low : std::max(low, pick());
-        std::vector<double> tint;
+        scene::Components tint;
         for (int k = 0; k < 3; ++k) tint.push_back(std::min(pick(), 1.0));
-        if (unit(random) < 0.7) tint.assign(3, tint[0]);
+        if (unit(random) < 0.7) tint = {tint[0], tint[0], tint[0]};
         scene::Material material = with("gain", between({low}, {high}));
         material.parameters["tint"] = constant(tint);
         const SceneFacts facts = facts_of(scene_of({material}));

@@ -28,21 +28,21 @@ model lit(g: geometry, s: surface) {
 }
 )";
 
-scene::Value value(std::vector<double> low, std::vector<double> high)
+scene::Value value(const scene::Components& low, const scene::Components& high)
 {
     scene::Value out;
-    out.low = std::move(low);
-    out.high = std::move(high);
+    out.low = low;
+    out.high = high;
     out.is_given = true;
     return out;
 }
 
-scene::Value value(std::vector<double> both) { return value(both, both); }
+scene::Value value(const scene::Components& both) { return value(both, both); }
 
-scene::Material material(std::vector<double> color, double metallic, double roughness)
+scene::Material material(const scene::Components& color, double metallic, double roughness)
 {
     scene::Material out;
-    out.base_color = value(std::move(color));
+    out.base_color = value(color);
     out.metallic = value({metallic});
     out.roughness = value({roughness});
     out.emissive = value({0, 0, 0});

@@ -4,18 +4,19 @@
 
 namespace lobe::tests {
 
-scene::Value between(std::vector<double> low, std::vector<double> high, const std::string& pointer)
+scene::Value between(const scene::Components& low, const scene::Components& high,
+                     const std::string& pointer)
 {
     scene::Value value;
-    value.offset.assign(low.size(), 0);
-    value.low = std::move(low);
-    value.high = std::move(high);
+    value.offset.resize(low.size());
+    value.low = low;
+    value.high = high;
     value.pointer = pointer;
     value.is_given = true;
     return value;
 }
 
-scene::Value constant(std::vector<double> value, const std::string& pointer)
+scene::Value constant(const scene::Components& value, const std::string& pointer)
 {
     return between(value, value, pointer);
 }

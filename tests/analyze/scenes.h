@@ -9,8 +9,8 @@
 namespace lobe::tests {
 
 /// The same number for all.
-scene::Value constant(std::vector<double> value, const std::string& pointer = "");
-scene::Value between(std::vector<double> low, std::vector<double> high,
+scene::Value constant(const scene::Components& value, const std::string& pointer = "");
+scene::Value between(const scene::Components& low, const scene::Components& high,
                      const std::string& pointer = "");
 
 /// A dielectric of grey 0.5 and roughness 0.5, with nothing else given.

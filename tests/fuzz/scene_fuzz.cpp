@@ -23,7 +23,8 @@ void require(bool condition)
     if (!condition) std::abort();
 }
 
-void check_finite(const std::vector<double>& numbers)
+template <class Numbers>
+void check_finite(const Numbers& numbers)
 {
     for (const double number : numbers) require(std::isfinite(number));
 }

@@ -1,4 +1,5 @@
 // Pictures whose pixels are known: a furnace, a lamp overhead, shadows.
+#include "analyze/checked.h"
 #include "analyze/packing/radiance_box.h"
 #include "compile.h"
 #include "render/camera.h"
@@ -29,18 +30,18 @@ scene::Matrix at(double x, double y, double z, double scale = 1)
     return m;
 }
 
-scene::Value constant(std::vector<double> value)
+scene::Value constant(const scene::Components& value)
 {
     scene::Value out;
-    out.low = out.high = std::move(value);
+    out.low = out.high = value;
     out.is_given = true;
     return out;
 }
 
-scene::Material material_of(std::vector<double> color)
+scene::Material material_of(const scene::Components& color)
 {
     scene::Material material;
-    material.base_color = constant(std::move(color));
+    material.base_color = constant(color);
     material.metallic = constant({0});
     material.roughness = constant({1});
     material.emissive = constant({0, 0, 0});
@@ -60,10 +61,10 @@ scene::Mesh square()
 }
 
 /// One square, filling the picture of a parallel camera.
-scene::Scene one_square(std::vector<double> color)
+scene::Scene one_square(const scene::Components& color)
 {
     scene::Scene scene;
-    scene.materials.push_back(material_of(std::move(color)));
+    scene.materials.push_back(material_of(color));
     scene.meshes.push_back(square());
     scene.instances.push_back({0, identity});
     scene::Camera camera;
@@ -88,21 +89,6 @@ void add_uniform_sky(scene::Scene& scene)
 struct Lambert {
     Lambert()
     {
-        const auto root = sources.add("lambert.lobe", R"(module lambert
-/// Lambert.
-model lambert(g: geometry, s: surface) {
-  diffuse = s.diffuse_color / pi * g.cos_i
-}
-)");
-        Diagnostics diagnostics;
-        auto checked = front(
-            sources, root,
-            [](Sources&, std::string_view, std::string_view) -> std::optional<std::uint32_t> {
-                return std::nullopt;
-            },
-            diagnostics);
-        REQUIRE(checked);
-        module = middle(*checked);
         look.shaders.push_back(
             {&module, analyze::radiance_of(module, {module.models[0].outputs[0].function}), {}});
         look.shader_of = {0};
@@ -110,8 +96,13 @@ model lambert(g: geometry, s: surface) {
     Lambert(const Lambert&) = delete;
     Lambert& operator=(const Lambert&) = delete;
 
-    Sources sources;
-    ir::Module module;
+    ir::Module module = middle(tests::checked_text(R"(module lambert
+/// Lambert.
+model lambert(g: geometry, s: surface) {
+  diffuse = s.diffuse_color / pi * g.cos_i
+}
+)")
+                                   .module);
     render::Look look;
 };
 
