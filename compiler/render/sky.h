@@ -1,6 +1,11 @@
 // The environment of a scene as light: how bright a direction is, and directions chosen by it.
+//
+// Its faces are pictures as seen from the middle, so the cube's axes (see
+// analyze/environment/cube_map.h) are the world's with z turned around, and then turned by the
+// environment's rotation.
 #pragma once
 
+#include "analyze/environment/cube_map.h"
 #include "render/vector.h"
 #include "scene/scene.h"
 
@@ -19,7 +24,7 @@ public:
     /// `is_dark`.
     explicit Sky(const scene::Scene& scene);
 
-    bool is_dark() const { return texels_.empty(); }
+    bool is_dark() const { return below_.empty(); }
     /// Linear RGB in candela per square meter.
     Vector3 radiance(const Vector3& direction) const;
 
@@ -32,13 +37,13 @@ public:
     float density(const Vector3& direction) const;
 
 private:
-    std::size_t texel_of(const Vector3& direction) const;
-    Vector3 world_of(const Vector3& cube) const;
-    Vector3 cube_of(const Vector3& world) const;
+    std::size_t texel_of(const analyze::FacePlace& place) const;
+    Vector3 color_of(std::size_t texel) const;
+    Vector3 world_of(const analyze::Vector& cube) const;
+    analyze::FacePlace place_of(const Vector3& world) const;
 
-    int size_ = 0;                 ///< texels along an edge of a face
-    std::vector<Vector3> texels_;  ///< six faces, row by row
-    std::vector<float> below_;     ///< share of the texels before this one; one more at the end
+    analyze::CubeLevel texels_;
+    std::vector<float> below_;  ///< share of the texels before this one; one more at the end
     std::array<Vector3, 3> rotation_{};  ///< columns
 };
 

@@ -1,5 +1,5 @@
 // The sky as light: which face a direction meets, and that directions are chosen as they say.
-#include "analyze/random.h"
+#include "analyze/directions.h"
 #include "render/sky.h"
 
 #include <catch2/catch.hpp>
@@ -38,13 +38,10 @@ scene::Scene sky_of(int size, const Texel& texel)
     return scene;
 }
 
-Vector3 on_sphere(analyze::Random& random)
+Vector3 anywhere(analyze::Random& random)
 {
-    const double z = 2 * random.unit() - 1;
-    const double phi = 2 * std::numbers::pi * random.unit();
-    const double across = std::sqrt(1 - z * z);
-    return {static_cast<float>(across * std::cos(phi)), static_cast<float>(across * std::sin(phi)),
-            static_cast<float>(z)};
+    const analyze::Vector at = analyze::on_sphere(random);
+    return {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
 }
 
 struct Mean {
@@ -78,13 +75,13 @@ scene::Scene sunny()
 
 }  // namespace
 
-TEST_CASE("faces lie where OpenGL has them")
+TEST_CASE("faces lie on the axes of a cube map, whose z is turned around")
 {
     const Sky sky{sky_of(2, [](std::size_t face, int, int) -> Vector3 {
         return {face % 2 == 0 ? 1.0F : 0.0F, face / 2 == 0 ? 1.0F : 0.0F,
                 face / 2 == 1 ? 1.0F : 0.0F};
     })};
-    const Vector3 axes[]{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    const Vector3 axes[]{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, 1}};
     for (std::size_t face = 0; face < 6; ++face) {
         const Vector3 light = sky.radiance(axes[face]);
         CHECK(light[0] == (face % 2 == 0 ? 1 : 0));
@@ -95,13 +92,13 @@ TEST_CASE("faces lie where OpenGL has them")
 
 TEST_CASE("rows run down and columns right, seen from inside")
 {
-    // Face +z, upper left texel: s and t are -1, which is x < 0 and y > 0.
+    // Face +z is met toward -z, where x runs to the right and y up.
     const Sky sky{sky_of(2, [](std::size_t face, int x, int y) -> Vector3 {
         return face == 4 && x == 0 && y == 0 ? Vector3{1, 1, 1} : Vector3{0, 0, 0};
     })};
-    CHECK(sky.radiance({-0.4F, 0.4F, 0.8F})[0] == 1);
-    CHECK(sky.radiance({0.4F, 0.4F, 0.8F})[0] == 0);
-    CHECK(sky.radiance({-0.4F, -0.4F, 0.8F})[0] == 0);
+    CHECK(sky.radiance({-0.4F, 0.4F, -0.8F})[0] == 1);
+    CHECK(sky.radiance({0.4F, 0.4F, -0.8F})[0] == 0);
+    CHECK(sky.radiance({-0.4F, -0.4F, -0.8F})[0] == 0);
 }
 
 TEST_CASE("the environment's rotation turns the sky")
@@ -121,7 +118,7 @@ TEST_CASE("densities over the sphere are one")
     const Sky sky{sunny()};
     analyze::Random random{1};
     Mean mean;
-    for (int i = 0; i < 200'000; ++i) mean.add(full_sphere * sky.density(on_sphere(random)));
+    for (int i = 0; i < 200'000; ++i) mean.add(full_sphere * sky.density(anywhere(random)));
     CHECK(std::abs(mean.value() - 1) < 5 * mean.deviation());
 }
 
@@ -141,7 +138,7 @@ TEST_CASE("directions are chosen in the density that is said of them")
     CHECK(std::abs(solid_angle.value() - full_sphere) < 5 * solid_angle.deviation());
     Mean sun;
     for (int i = 0; i < 200'000; ++i)
-        sun.add(sky.radiance(on_sphere(random))[0] > 0.9F ? full_sphere : 0);
+        sun.add(sky.radiance(anywhere(random))[0] > 0.9F ? full_sphere : 0);
     CHECK(std::abs(toward_the_sun.value() - sun.value()) <
           5 * std::hypot(sun.deviation(), toward_the_sun.deviation()));
 }

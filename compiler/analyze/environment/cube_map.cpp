@@ -11,51 +11,8 @@
 namespace lobe::analyze {
 namespace {
 
-constexpr int faces = 6;
-
-/// The point of a face's plane at distance 1: u to the right and v down, in [-1, 1] on the face.
-Vector on_face(int face, double u, double v)
-{
-    switch (face) {
-    case 0: return {1, -v, -u};
-    case 1: return {-1, -v, u};
-    case 2: return {u, 1, v};
-    case 3: return {u, -1, -v};
-    case 4: return {u, -v, 1};
-    default: return {-u, -v, -1};
-    }
-}
-
-struct FacePlace {
-    int face = 0;
-    double u = 0;
-    double v = 0;
-};
-
-FacePlace place_of(const Vector& d)
-{
-    const double x = std::fabs(d.x);
-    const double y = std::fabs(d.y);
-    const double z = std::fabs(d.z);
-    if (x >= y && x >= z) {
-        if (d.x >= 0) return {0, -d.z / x, -d.y / x};
-        return {1, d.z / x, -d.y / x};
-    }
-    if (y >= z) {
-        if (d.y >= 0) return {2, d.x / y, d.z / y};
-        return {3, d.x / y, -d.z / y};
-    }
-    if (d.z >= 0) return {4, d.x / z, -d.y / z};
-    return {5, -d.x / z, -d.y / z};
-}
-
 /// The middle of a texel on its face, in [-1, 1]; beyond for neighbors' texels.
 double middle(int texel, int size) { return (2 * texel + 1.0) / size - 1; }
-
-int texel_at(double place, int size)
-{
-    return std::clamp(static_cast<int>(std::floor((place + 1) / 2 * size)), 0, size - 1);
-}
 
 /// A texel, or what lies beyond the face's edge in its place.
 Radiance texel_beyond(const CubeLevel& level, int face, int row, int column)
@@ -63,7 +20,7 @@ Radiance texel_beyond(const CubeLevel& level, int face, int row, int column)
     const auto inside = [&](int texel) { return 0 <= texel && texel < level.size; };
     if (inside(row) && inside(column)) return level.at(face, row, column);
     const FacePlace place =
-        place_of(on_face(face, middle(column, level.size), middle(row, level.size)));
+        face_place(cube_point({face, middle(column, level.size), middle(row, level.size)}));
     return level.at(place.face, texel_at(place.v, level.size), texel_at(place.u, level.size));
 }
 
@@ -103,7 +60,7 @@ CubeLevel halved(const CubeLevel& fine)
     CubeLevel out{std::max(fine.size / 2, 1)};
     const double ratio = static_cast<double>(fine.size) / out.size;
     const auto edge = [&](double place) { return 2 * place / fine.size - 1; };
-    for (int face = 0; face < faces; ++face)
+    for (int face = 0; face < cube_faces; ++face)
         for (int row = 0; row < out.size; ++row)
             for (int column = 0; column < out.size; ++column) {
                 const double left = column * ratio;
@@ -153,8 +110,43 @@ Radiance look_up(const LatLong& picture, const Vector& d)
 
 }  // namespace
 
+FacePlace face_place(const Vector& d)
+{
+    const double x = std::fabs(d.x);
+    const double y = std::fabs(d.y);
+    const double z = std::fabs(d.z);
+    if (x >= y && x >= z) {
+        if (d.x >= 0) return {0, -d.z / x, -d.y / x};
+        return {1, d.z / x, -d.y / x};
+    }
+    if (y >= z) {
+        if (d.y >= 0) return {2, d.x / y, d.z / y};
+        return {3, d.x / y, -d.z / y};
+    }
+    if (d.z >= 0) return {4, d.x / z, -d.y / z};
+    return {5, -d.x / z, -d.y / z};
+}
+
+Vector cube_point(const FacePlace& place)
+{
+    const auto [face, u, v] = place;
+    switch (face) {
+    case 0: return {1, -v, -u};
+    case 1: return {-1, -v, u};
+    case 2: return {u, 1, v};
+    case 3: return {u, -1, -v};
+    case 4: return {u, -v, 1};
+    default: return {-u, -v, -1};
+    }
+}
+
+int texel_at(double place, int size)
+{
+    return std::clamp(static_cast<int>(std::floor((place + 1) / 2 * size)), 0, size - 1);
+}
+
 CubeLevel::CubeLevel(int edge)
-    : size(edge), texels(std::size_t{3} * faces * static_cast<std::size_t>(edge) *
+    : size(edge), texels(std::size_t{3} * cube_faces * static_cast<std::size_t>(edge) *
                          static_cast<std::size_t>(edge))
 {
 }
@@ -178,7 +170,7 @@ void CubeLevel::set(int face, int row, int column, const Radiance& value)
 
 Vector texel_direction(const CubeLevel& level, int face, int row, int column)
 {
-    return normalized(on_face(face, middle(column, level.size), middle(row, level.size)));
+    return normalized(cube_point({face, middle(column, level.size), middle(row, level.size)}));
 }
 
 double texel_solid_angle(int size, int row, int column)
@@ -201,7 +193,7 @@ Radiance look_up(const CubeMap& map, const Vector& direction, double level)
     const double held = std::clamp(level, 0.0, static_cast<double>(map.levels.size() - 1));
     const auto sharper = static_cast<std::size_t>(held);
     const double between = held - static_cast<double>(sharper);
-    const FacePlace place = place_of(direction);
+    const FacePlace place = face_place(direction);
     Radiance out{};
     add(out, look_up(map.levels[sharper], place), 1 - between);
     if (between > 0) add(out, look_up(map.levels[sharper + 1], place), between);
@@ -213,7 +205,7 @@ CubeLevel cube_of(const LatLong& picture, int size, unsigned jobs)
     // As many places per texel as the picture has texels there, within reason.
     const int across = std::clamp(picture.width / (4 * size) + 1, 2, 16);
     CubeLevel out{size};
-    for_each_task(static_cast<std::size_t>(faces * size), jobs, [&](std::size_t task) {
+    for_each_task(static_cast<std::size_t>(cube_faces * size), jobs, [&](std::size_t task) {
         const int face = static_cast<int>(task) / size;
         const int row = static_cast<int>(task) % size;
         const auto place = [&](int texel, int part) {
@@ -224,7 +216,7 @@ CubeLevel cube_of(const LatLong& picture, int size, unsigned jobs)
             double whole = 0;
             for (int y = 0; y < across; ++y)
                 for (int x = 0; x < across; ++x) {
-                    const Vector at = on_face(face, place(column, x), place(row, y));
+                    const Vector at = cube_point({face, place(column, x), place(row, y)});
                     // The solid angle of equal parts of a face's plane.
                     const double weight = std::pow(dot(at, at), -1.5);
                     add(sum, look_up(picture, normalized(at)), weight);

@@ -1,7 +1,10 @@
 // A cube map: radiance from every direction, linear RGB, with levels that get coarser.
 //
 // Faces, their axes and the order of texels are those of glTF, OpenGL, Vulkan and Direct3D: +x -x
-// +y -y +z -z, each seen from the middle, rows from the top. [VulkanSpec] "Cube Map Face Selection"
+// +y -y +z -z, rows from the top. [VulkanSpec] "Cube Map Face Selection"
+//
+// These axes are left-handed if the faces are pictures as seen from the middle: whoever shows such
+// pictures in a right-handed world turns an axis around (render/sky.cpp).
 #pragma once
 
 #include "analyze/directions.h"
@@ -32,6 +35,24 @@ struct CubeLevel {
 struct CubeMap {
     std::vector<CubeLevel> levels;
 };
+
+inline constexpr int cube_faces = 6;
+
+/// A point of a face: u to the right and v down, both in [-1, 1].
+struct FacePlace {
+    int face = 0;
+    double u = 0;
+    double v = 0;
+};
+
+/// Where a direction, which need not have unit length, meets the cube.
+FacePlace face_place(const Vector& direction);
+
+/// The point itself, of the cube that reaches from -1 to 1. No unit vector.
+Vector cube_point(const FacePlace& place);
+
+/// The row or column of a texel, of `size`, that a v or u lies in.
+int texel_at(double place, int size);
 
 /// Where the middle of a texel lies: a unit vector.
 Vector texel_direction(const CubeLevel& level, int face, int row, int column);
