@@ -168,7 +168,8 @@ private:
                     negate(parts->slope)};
         const bool cancels = match.rest.size() + 2 <= parts->constant.size() + parts->slope.size();
         if (!cancels || opposite(range(match.rest), range(match.slope))) return std::nullopt;
-        if (is_absorbed(id, parts->slope, degree)) return std::nullopt;
+        const bool is_field = match.rest.empty() && degree == 1 && is_at_hand(variable);
+        if (!is_field && is_absorbed(id, parts->slope, degree)) return std::nullopt;
         // Beyond 1 the factor 1 - x^d changes sign, and a rest would meet it from the other side.
         const Interval& x = subject_.ranges[variable];
         if (!match.rest.empty() && (x.high > 1 || x.low < (degree == 2 ? -1 : 0)))
@@ -184,6 +185,14 @@ private:
         if (rule == rule_table.end()) return std::nullopt;
         match.rule = &*rule;
         return match;
+    }
+
+    /// One minus a variable is a field that is computed anyway.
+    bool is_at_hand(ExprId variable) const
+    {
+        if (graph_[variable].op != Op::input) return false;
+        const auto field = stable_field(subject_.function->inputs[graph_[variable].aux]);
+        return field && subject_.at_hand.contains(*field);
     }
 
     /// True when the cancellation of a sum is lost in every sum it enters, as that of 1 - x is in

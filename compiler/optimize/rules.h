@@ -28,6 +28,7 @@
 #include "optimize/sum.h"
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -82,6 +83,9 @@ struct Subject {
     Facts<ir::Expr, evaluate::Interval> ranges;  ///< none where there is no sum of two or more
     std::vector<bool> complemented;  ///< by input: an argument whose complement is to be had
     Inputs inputs{};
+    /// Stable fields of the geometry that are computed anyway. They stand for 1 - x also where its
+    /// cancellation shows nowhere: a subtraction less, and often an x that nothing else reads.
+    std::set<ir::GeometryField> at_hand{};
 };
 Subject subject(const ir::Module& module, const ir::Function& function,
                 std::vector<bool> complemented, Inputs inputs = Inputs::from_vectors);

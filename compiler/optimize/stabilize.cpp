@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
+#include <vector>
 
 namespace lobe::optimize {
 
@@ -190,16 +192,59 @@ Complements no_complements(const Module& module)
     return result;
 }
 
+/// Stable fields by function.
+using AtHand = std::vector<std::set<GeometryField>>;
+
+/// What all that call a function compute anyway, be it a model, with all of its outputs, or a root
+/// by itself. The sine is made of one_minus_cos_h.
+AtHand fields_at_hand(const Module& module)
+{
+    std::vector<std::vector<FunctionId>> callers;
+    std::vector<bool> is_output(module.functions.size());
+    for (const Model& model : module.models) {
+        std::vector<FunctionId>& outputs = callers.emplace_back();
+        for (const ModelOutput& output : model.outputs) {
+            outputs.push_back(output.function);
+            is_output[output.function.index] = true;
+        }
+    }
+    for (const FunctionId root : all_roots(module))
+        if (!is_output[root.index]) callers.push_back({root});
+
+    AtHand result(module.functions.size());
+    std::vector<bool> is_called(module.functions.size());
+    for (const std::vector<FunctionId>& together : callers) {
+        std::set<GeometryField> fields;
+        for (const FunctionId id : together)
+            for (const Input& input : module[id].inputs)
+                if (input.origin == Origin::geometry)
+                    fields.insert(static_cast<GeometryField>(input.which));
+        if (fields.contains(GeometryField::sin2_h)) fields.insert(GeometryField::one_minus_cos_h);
+        for (const FunctionId id : module.reachable(together)) {
+            std::set<GeometryField>& at_hand = result[id.index];
+            if (!is_called[id.index])
+                at_hand = fields;
+            else
+                std::erase_if(at_hand,
+                              [&](GeometryField field) { return !fields.contains(field); });
+            is_called[id.index] = true;
+        }
+    }
+    return result;
+}
+
 Module stabilize_once(const Module& module, std::vector<Application>& log, Inputs inputs)
 {
     const Complements complements =
         inputs == Inputs::given ? no_complements(module) : find_complements(module);
+    const AtHand at_hand = fields_at_hand(module);
     return rewrite(module, [&](Rebuild& rebuild) -> Step {
         const std::vector<bool>& complemented = complements[rebuild.id().index];
         rebuild.complement = [&rebuild, &complemented](ExprId operand) {
             return complement_operand(rebuild, complemented, operand);
         };
         auto found = subject(rebuild.old_module(), rebuild.old(), complemented, inputs);
+        found.at_hand = at_hand[rebuild.id().index];
         auto matches = match_rules(found);
         const auto has_rule = [&](ExprId id) { return matches[id].has_value(); };
         if (!any_expression(rebuild.old().graph, has_rule)) return {};

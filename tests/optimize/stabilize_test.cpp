@@ -241,6 +241,48 @@ TEST_CASE("a cancellation that a sum absorbs stays, and one that shows does not"
         [&](Site& s) { return s.t.add(s.one, s.t.multiply(s.t.number("64"), one_minus(s))); }));
 }
 
+TEST_CASE("a field that is computed anyway is read where nothing cancels, too")
+{
+    const auto reads_field = [](const Module& module, FunctionId id) {
+        const auto field = static_cast<std::uint32_t>(GeometryField::one_minus_cos_h);
+        return module[id].find_input(Origin::geometry, field).has_value();
+    };
+    // 2 - cos_h in a function that two roots call.
+    const auto made = [&](bool both_have_a_sine, const auto& models) {
+        Module module = empty_module();
+        Site site;
+        const ExprId absorbed = site.t.add(site.one, site.t.subtract(site.one, site.cos_h));
+        const FunctionId callee = site.t.in(module, absorbed);
+        std::vector<FunctionId> roots;
+        for (const bool has_sine : {true, both_have_a_sine}) {
+            Term root{roots.empty() ? "first" : "second"};
+            std::vector<ExprId> passed;
+            for (const GeometryField field :
+                 {GeometryField::cos_h, GeometryField::cos_d, GeometryField::v_dot_l})
+                passed.push_back(root.field(field));
+            passed.push_back(root.argument("a", 0.001, 1));
+            passed.push_back(root.argument("x", 0, 1));
+            ExprId value = root.call(module, callee, passed);
+            if (has_sine)
+                value = root.multiply(value,
+                                      root.subtract(root.number("1"), root.power(passed[0], "2")));
+            roots.push_back(root.in(module, value));
+        }
+        for (const auto& outputs : models(roots)) set_roots(module, outputs);
+        return reads_field(stabilize(module), callee);
+    };
+    const auto apart = [](const std::vector<FunctionId>& roots) {
+        return std::vector<std::vector<FunctionId>>{{roots[0]}, {roots[1]}};
+    };
+    const auto together = [](const std::vector<FunctionId>& roots) {
+        return std::vector<std::vector<FunctionId>>{roots};
+    };
+    CHECK(made(true, apart));
+    // One of its callers would have to compute it for this alone; not if both are one model's.
+    CHECK_FALSE(made(false, apart));
+    CHECK(made(false, together));
+}
+
 TEST_CASE("squares far from 1 are subtracted as they are")
 {
     Term t{"term"};
