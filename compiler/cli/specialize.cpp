@@ -157,14 +157,13 @@ struct Specialize {
                                                 options, store);
         phases.done("shaders and costs");
         if (no_certificate) return out;
-        for (std::size_t i = 0; i < out.variants.chosen.size(); ++i) {
-            const analyze::Variant& variant = out.variants.chosen[i];
-            progress.show(fmt::format("{} of {} certificates, {}", i + 1,
-                                      out.variants.chosen.size(), variant.name));
-            out.certificates.push_back(analyze::certify(
-                file.module(), file.program.sources, file.model, variant.called, variant.residual,
-                analyze::dropped_in(variant, dropped), checks, store));
-        }
+        progress.show("certificates");
+        std::vector<analyze::CertificateSubject> subjects;
+        for (const analyze::Variant& variant : out.variants.chosen)
+            subjects.push_back(
+                {&variant.called, &variant.residual, analyze::dropped_in(variant, dropped)});
+        out.certificates = analyze::certify(file.module(), file.program.sources, file.model,
+                                            subjects, checks, store);
         phases.done("certificates");
         return out;
     }

@@ -42,8 +42,9 @@ CertificateOptions few_points()
 
 Certificate certified(const optimize::Called& what, const optimize::Residual& residual)
 {
-    return certify(callisto().module, callisto().sources, "callisto", what, residual, {},
-                   few_points(), {});
+    return certify(callisto().module, callisto().sources, "callisto", {{&what, &residual}},
+                   few_points(), {})
+        .front();
 }
 
 }  // namespace
@@ -165,7 +166,8 @@ TEST_CASE("effects go together as long as their bounds allow it")
     const auto residual = optimize::residual(callisto().module, without, "callisto");
     CHECK(residual.off.size() == callisto().module.effects.size());
     const Certificate certificate = certify(callisto().module, callisto().sources, "callisto",
-                                            without, residual, both, few_points(), {});
+                                            {{&without, &residual, both}}, few_points(), {})
+                                        .front();
     CHECK(certificate.ok());
     CHECK(certificate.dropped.size() == 2);
 }
@@ -181,9 +183,10 @@ TEST_CASE("what no proof holds together stays")
     CertificateOptions options = few_points();
     options.epsilon = 0.05;
     options.execute = false;
-    const Certificate certificate =
-        certify(callisto().module, callisto().sources, "callisto", what,
-                optimize::residual(callisto().module, what, "callisto"), {}, options, {});
+    const auto residual = optimize::residual(callisto().module, what, "callisto");
+    const Certificate certificate = certify(callisto().module, callisto().sources, "callisto",
+                                            {{&what, &residual}}, options, {})
+                                        .front();
     CHECK(certificate.ok());
     REQUIRE(certificate.kept.size() == 1);
     CHECK(certificate.kept[0].effect == "Dual Specular");

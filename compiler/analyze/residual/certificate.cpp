@@ -1,316 +1,35 @@
 #include "analyze/residual/certificate.h"
 
-#include "analyze/heads.h"
 #include "analyze/kept_lines.h"
 #include "analyze/physics/emitted_function.h"
-#include "analyze/points.h"
+#include "analyze/residual/comparison.h"
 #include "analyze/tasks.h"
-#include "evaluate/bounds.h"
-#include "evaluate/run.h"
 #include "optimize/inline.h"
 #include "optimize/optimize.h"
 #include "optimize/rewrite.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <memory>
+#include <mutex>
 
 namespace lobe::analyze {
 namespace {
 
-using evaluate::Acceptance;
-using evaluate::Real;
-
-/// Bits of the exact values: twice those of a double, and some.
-constexpr int exact_bits = 113;
-
 /// Points that one thread takes at a time.
 constexpr std::size_t chunk = 512;
 
-/// The inputs of both functions, over the scene's box.
-class SceneBox {
-public:
-    /// What was dropped is compared where it is off; an effect that is off has its own constants,
-    /// or what the residual set in place of a range.
-    SceneBox(const ir::Module& general, const optimize::Called& called,
-             const optimize::Settings& settings, const std::vector<Dropped>& dropped)
-        : called_(called), constants_(settings)
-    {
-        optimize::Settings own = called.constants;
-        for (const ir::Effect& effect : general.effects)
-            if (std::ranges::count(dropped, effect.name, &Dropped::effect) > 0)
-                for (const ir::Input& input : general[effect.off_when].inputs)
-                    own.erase(input.name);
-        for (const auto& [name, value] : own) constants_[name] = value;
-    }
-
-    const optimize::Settings& constants() const { return constants_; }
-    /// The value of an input that does not vary.
-    const std::vector<double>* constant(const ir::Input& input) const
-    {
-        if (input.origin != ir::Origin::parameter && input.origin != ir::Origin::surface)
-            return nullptr;
-        const auto found = constants_.find(input.name);
-        const auto size = static_cast<std::size_t>(ir::components(input.type));
-        return found != constants_.end() && found->second.size() == size ? &found->second : nullptr;
-    }
-
-    bool is_binary(const ir::Input& input) const { return called_.binary.contains(input.name); }
-
-    ir::Range range(const ir::Input& input) const
-    {
-        const auto found = called_.ranges.find(input.name);
-        if (found == called_.ranges.end() || input.origin == ir::Origin::argument ||
-            input.origin == ir::Origin::geometry)
-            return input.range;
-        const ir::Range both{std::max(input.range.low, found->second.low),
-                             std::min(input.range.high, found->second.high)};
-        return both.low <= both.high ? both : input.range;
-    }
-
-private:
-    const optimize::Called& called_;
-    optimize::Settings constants_;
-};
-
-/// One scalar of the points.
-struct Column {
-    std::string name;
-    std::optional<double> constant;
-};
-
-/// Points of the scene's box, for the inputs of both functions.
-struct Sample {
-    std::vector<Column> columns;
-    std::vector<std::vector<float>> values;
-
-    /// Which column a tape reads for each of its inputs.
-    std::vector<std::size_t> columns_of(const evaluate::Tape& tape) const
-    {
-        std::vector<std::size_t> result;
-        for (const evaluate::TapeInput& input : tape.inputs)
-            result.push_back(static_cast<std::size_t>(
-                std::ranges::find(columns, input.name, &Column::name) - columns.begin()));
-        return result;
-    }
-};
-
-Sample sample(const ir::Module& module, const ir::Function& general, const ir::Function& residual,
-              const SceneBox& box, std::size_t count)
+/// What was dropped is compared where it is off; an effect that is off has its own constants, or
+/// what the residual set in place of a range.
+SceneBox scene_box(const ir::Module& general, const CertificateSubject& subject)
 {
-    ir::Function probe = general;
-    for (const ir::Input& input : residual.inputs)
-        if (std::ranges::count(probe.inputs, input.name, &ir::Input::name) == 0)
-            probe.inputs.push_back(input);
-    for (ir::Input& input : probe.inputs) input.range = box.range(input);
-    Points points = analyze::points(module, probe, count);
-
-    Sample result;
-    std::size_t column = 0;
-    for (const ir::Input& input : probe.inputs) {
-        const std::vector<double>* constant = box.constant(input);
-        for (int k = 0; k < ir::components(input.type); ++k, ++column) {
-            std::vector<float>& values = points.columns[column];
-            result.columns.push_back({points.names[column], {}});
-            if (constant != nullptr) {
-                const double value = (*constant)[static_cast<std::size_t>(k)];
-                result.columns.back().constant = value;
-                std::ranges::fill(values, static_cast<float>(value));
-            } else if (box.is_binary(input)) {
-                for (float& value : values) value = value > 0.5F ? 1.0F : 0.0F;
-            }
-        }
-    }
-    result.values = std::move(points.columns);
-    return result;
+    SceneBox box{*subject.called, subject.residual->settings};
+    optimize::Settings own = subject.called->constants;
+    for (const ir::Effect& effect : general.effects)
+        if (std::ranges::count(subject.dropped, effect.name, &Dropped::effect) > 0)
+            for (const ir::Input& input : general[effect.off_when].inputs) own.erase(input.name);
+    for (const auto& [name, value] : own) box.constants[name] = value;
+    return box;
 }
-
-/// A material's number reaches a shader as the float next to it: the general function may be given
-/// that one, and is meant for the number itself.
-Acceptance admitted(const Column& column, float value)
-{
-    if (!column.constant || *column.constant == double{value}) return {value, value, false};
-    return {std::min(evaluate::next_down(*column.constant), double{value}),
-            std::max(evaluate::next_up(*column.constant), double{value}), false};
-}
-
-/// A function at some of the points.
-class Evaluation {
-public:
-    Evaluation(const ir::Module& module, const ir::Function& entry, const Sample& sample)
-        : tape_(evaluate::compile(module, entry)), sample_(sample),
-          columns_(sample.columns_of(tape_))
-    {
-    }
-
-    const evaluate::Tape& tape() const { return tape_; }
-    std::size_t components() const { return tape_.outputs.size(); }
-    const std::vector<std::size_t>& columns() const { return columns_; }
-
-    std::vector<std::vector<Acceptance>> accepted(std::size_t first, std::size_t size) const
-    {
-        const auto in = slice<Acceptance>(first, size, admitted);
-        std::vector<std::vector<Acceptance>> out(components(), std::vector<Acceptance>(size));
-        evaluate::run_acceptance(tape_, evaluate::Precision::float32, heads(in), heads(out), size);
-        return out;
-    }
-
-    std::vector<std::vector<double>> exact(std::size_t first, std::size_t size) const
-    {
-        const auto in = slice<Real>(first, size, [](const Column& column, float value) {
-            return column.constant ? Real{fmt::format("{}", *column.constant), exact_bits}
-                                   : Real{value, exact_bits};
-        });
-        std::vector<std::vector<Real>> out(components(), std::vector<Real>(size, Real{exact_bits}));
-        evaluate::run_real(tape_, exact_bits, heads(in), heads(out), size);
-        std::vector<std::vector<double>> result;
-        for (const auto& column : out) {
-            auto& values = result.emplace_back();
-            for (const Real& value : column) values.push_back(value.to_double());
-        }
-        return result;
-    }
-
-private:
-    template <class Number, class Make>
-    std::vector<std::vector<Number>> slice(std::size_t first, std::size_t size,
-                                           const Make& make) const
-    {
-        std::vector<std::vector<Number>> result;
-        for (const std::size_t column : columns_) {
-            auto& values = result.emplace_back();
-            for (std::size_t i = 0; i < size; ++i)
-                values.push_back(make(sample_.columns[column], sample_.values[column][first + i]));
-        }
-        return result;
-    }
-
-    evaluate::Tape tape_;
-    const Sample& sample_;
-    std::vector<std::size_t> columns_;
-};
-
-bool allows(const Acceptance& allowed, double value)
-{
-    return allowed.undefined || (allowed.low <= value && value <= allowed.high);
-}
-
-/// In shares of the half width; 0 where both are one number, whatever the width.
-double share(const Acceptance& allowed, double residual, double general)
-{
-    if (allowed.undefined || residual == general) return 0;
-    return std::abs(residual - general) / ((allowed.high - allowed.low) / 2);
-}
-
-/// What some of the points say.
-struct Count {
-    std::size_t outside = 0;
-    std::size_t device_outside = 0;
-    double worst = 0;
-};
-
-class Comparison {
-public:
-    Comparison(const Evaluation& general, const Evaluation& residual)
-        : general_(general), residual_(residual)
-    {
-    }
-
-    /// `device` has what a device computed of all points, or nothing.
-    Count count(std::size_t first, std::size_t size, const ResultColumns& device) const
-    {
-        const auto allowed = general_.accepted(first, size);
-        const auto meant = general_.exact(first, size);
-        const auto values = residual_.exact(first, size);
-        Count result;
-        for (std::size_t i = 0; i < size; ++i) {
-            bool outside = false;
-            bool device_outside = false;
-            for (std::size_t k = 0; k < allowed.size(); ++k) {
-                outside |= !allows(allowed[k][i], values[k][i]);
-                result.worst =
-                    std::max(result.worst, share(allowed[k][i], values[k][i], meant[k][i]));
-                if (!device.empty()) device_outside |= !allows(allowed[k][i], device[k][first + i]);
-            }
-            result.outside += outside;
-            result.device_outside += device_outside;
-        }
-        return result;
-    }
-
-private:
-    const Evaluation& general_;
-    const Evaluation& residual_;
-};
-
-/// All of one output.
-class Output {
-public:
-    Output(const ir::Module& general, ir::FunctionId meant, const ir::Module& residual,
-           ir::FunctionId emitted, const Sources& sources, const SceneBox& box,
-           const CertificateOptions& options, device::Device* device)
-        : options_(options), device_(device), emitted_(residual, sources, emitted, device),
-          sample_(sample(general, ir::entry_point(general, meant), emitted_.inputs().entry(), box,
-                         options.points)),
-          general_(general, ir::entry_point(general, meant), sample_),
-          residual_(residual, emitted_.inputs().entry(), sample_)
-    {
-    }
-
-    std::string key() const
-    {
-        std::string key = "certificate\n" + emitted_.key() + evaluate::dump(general_.tape());
-        for (std::size_t i = 0; i < sample_.columns.size(); ++i) {
-            const auto [low, high] = std::ranges::minmax(sample_.values[i]);
-            write_line(key, sample_.columns[i].name, low, high,
-                       sample_.columns[i].constant.value_or(low));
-        }
-        write_line(key, options_.points, device_ != nullptr);
-        return key;
-    }
-
-    void compare(Equality& out)
-    {
-        ResultColumns on_device;
-        if (device_ != nullptr) {
-            EmittedFunction::Batch batch{emitted_.inputs().columns()};
-            EntryInputs::Values values(emitted_.inputs().columns());
-            for (std::size_t point = 0; point < options_.points; ++point) {
-                for (std::size_t i = 0; i < values.size(); ++i)
-                    values[i] = sample_.values[residual_.columns()[i]][point];
-                batch.add(values);
-            }
-            if (emitted_.emitted(batch, on_device).empty())
-                out.device = device_->facts().name;
-            else
-                on_device.clear();
-        }
-        const std::size_t tasks = (options_.points + chunk - 1) / chunk;
-        std::vector<Count> counts(tasks);
-        const Comparison comparison{general_, residual_};
-        for_each_task(tasks, options_.jobs, [&](std::size_t task) {
-            const std::size_t first = task * chunk;
-            counts[task] =
-                comparison.count(first, std::min(chunk, options_.points - first), on_device);
-        });
-        out.points = options_.points;
-        for (const Count& count : counts) {
-            out.outside += count.outside;
-            out.device_outside += count.device_outside;
-            out.worst = std::max(out.worst, count.worst);
-        }
-    }
-
-private:
-    const CertificateOptions& options_;
-    device::Device* device_;
-    EmittedFunction emitted_;
-    Sample sample_;
-    Evaluation general_;
-    Evaluation residual_;
-};
 
 /// The general function with nothing done to it but constants put in, against the residual one.
 bool same_graph(const ir::Module& bound, ir::FunctionId meant, const ir::Module& residual,
@@ -330,59 +49,226 @@ const ir::Model* find_model(const ir::Module& module, std::string_view name)
     return found == module.models.end() ? nullptr : &*found;
 }
 
+/// A function of both modules.
+struct Pair {
+    std::string name;
+    ir::FunctionId meant;
+    ir::FunctionId emitted;
+    std::string light;  ///< that it shades under; empty: an output
+};
+
+/// The outputs of a model, and what it is under the lights that the residual knows.
+std::vector<Pair> pairs_of(const ir::Module& general, const ir::Module& residual,
+                           const std::string& model)
+{
+    std::vector<Pair> pairs;
+    const ir::Model* const meant = find_model(general, model);
+    const ir::Model* const left = find_model(residual, model);
+    if (meant == nullptr || left == nullptr) return pairs;
+    for (std::size_t i = 0; i < meant->outputs.size(); ++i)
+        pairs.push_back(
+            {meant->outputs[i].name, meant->outputs[i].function, left->outputs[i].function, ""});
+    for (const ir::Shading& shading : residual.shadings) {
+        const auto same = std::ranges::find_if(general.shadings, [&](const ir::Shading& other) {
+            return other.model.name == model && other.light.name == shading.light.name;
+        });
+        if (shading.model.name == model && same != general.shadings.end())
+            pairs.push_back({"under " + shading.light.name, same->function, shading.function,
+                             shading.light.name});
+    }
+    return pairs;
+}
+
+/// A device for every thread that asks for one at the same time: none can be shared.
+class Devices {
+public:
+    explicit Devices(const CertificateOptions& options) : options_(options)
+    {
+        if (options.execute) give_back(open());
+        if (!free_.empty()) facts_ = free_.front()->facts();
+    }
+
+    /// Nothing where there is no device.
+    std::unique_ptr<device::Device> take()
+    {
+        const std::lock_guard lock{mutex_};
+        if (!facts_) return nullptr;
+        if (free_.empty()) return open();
+        auto device = std::move(free_.back());
+        free_.pop_back();
+        return device;
+    }
+    void give_back(std::unique_ptr<device::Device> device)
+    {
+        const std::lock_guard lock{mutex_};
+        if (device) free_.push_back(std::move(device));
+    }
+    bool any() const { return facts_.has_value(); }
+
+private:
+    std::unique_ptr<device::Device> open() const
+    {
+        std::string why;
+        auto device = device::Device::open(options_.device, why);
+        return device ? std::make_unique<device::Device>(*std::move(device)) : nullptr;
+    }
+
+    const CertificateOptions& options_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<device::Device>> free_;
+    std::optional<device::DeviceFacts> facts_;
+};
+
+/// All of one function.
+class Work {
+public:
+    Work(const ir::Module& general, const ir::Module& residual, const Pair& pair,
+         const Sources& sources, const SceneBox& box, const CertificateOptions& options,
+         Devices& devices)
+        : residual_(residual), pair_(pair), sources_(sources),
+          comparison_(general, ir::entry_point(general, pair.meant), residual,
+                      ir::entry_point(residual, pair.emitted), box, options.points)
+    {
+        // The device is part of what results depend on.
+        auto device = devices.take();
+        key_ = "certificate 2\n" +
+               EmittedFunction{residual, sources, pair.emitted, device.get()}.key() +
+               comparison_.key();
+        devices.give_back(std::move(device));
+    }
+
+    const std::string& key() const { return key_; }
+    const Comparison& comparison() const { return comparison_; }
+    const ResultColumns& on_device() const { return on_device_; }
+    const std::string& device() const { return device_; }
+
+    void execute(Devices& devices)
+    {
+        auto device = devices.take();
+        if (!device) return;
+        EmittedFunction emitted{residual_, sources_, pair_.emitted, device.get()};
+        if (emitted.emitted(comparison_.inputs_of_other(), on_device_).empty())
+            device_ = device->facts().name;
+        else
+            on_device_.clear();
+        devices.give_back(std::move(device));
+    }
+
+private:
+    const ir::Module& residual_;
+    const Pair& pair_;
+    const Sources& sources_;
+    Comparison comparison_;
+    std::string key_;
+    ResultColumns on_device_;
+    std::string device_;
+};
+
+/// A function of a subject, from its name to what was found.
+struct Item {
+    std::size_t subject = 0;
+    Pair pair;
+    SceneBox box;
+    std::unique_ptr<Work> work;
+    std::optional<std::string> known;  ///< what a store had
+    Equality equality;
+};
+
+void read(const std::string& text, Equality& equality)
+{
+    LineReader reader{text};
+    reader(equality.points);
+    reader(equality.outside);
+    reader(equality.worst);
+    reader(equality.device_outside);
+    reader(equality.device);
+}
+
+/// Everything of the items that no store has, on all threads.
+void compare(std::vector<Item*>& items, const CertificateOptions& options, Devices& devices,
+             const Store& store)
+{
+    for_each_task(items.size(), options.jobs,
+                  [&](std::size_t i) { items[i]->work->execute(devices); });
+    const std::size_t chunks = (options.points + chunk - 1) / chunk;
+    std::vector<Disagreement> counts(items.size() * chunks);
+    for_each_task(counts.size(), options.jobs, [&](std::size_t task) {
+        const Work& work = *items[task / chunks]->work;
+        const std::size_t first = task % chunks * chunk;
+        counts[task] = work.comparison().count(first, std::min(chunk, options.points - first),
+                                               work.on_device());
+    });
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        Disagreement all;
+        for (std::size_t k = 0; k < chunks; ++k) all.add(counts[i * chunks + k]);
+        std::string line;
+        write_line(line, options.points, all.outside, all.worst, all.device_outside,
+                   items[i]->work->device());
+        if (store.save) store.save(items[i]->work->key(), line);
+        items[i]->known = std::move(line);
+    }
+}
+
 }  // namespace
 
 bool Certificate::ok() const { return std::ranges::all_of(outputs, &Equality::ok); }
 
-Certificate certify(const ir::Module& general, const Sources& sources, const std::string& model,
-                    const optimize::Called& called, const optimize::Residual& residual,
-                    const std::vector<Dropped>& dropped, const CertificateOptions& options,
-                    const Store& store)
+std::vector<Certificate> certify(const ir::Module& general, const Sources& sources,
+                                 const std::string& model,
+                                 const std::vector<CertificateSubject>& subjects,
+                                 const CertificateOptions& options, const Store& store)
 {
-    const auto start = std::chrono::steady_clock::now();
-    Certificate result;
-    result.model = model;
-    result.dropped = dropped;
-    const ir::Model* const meant = find_model(general, model);
-    const ir::Model* const left = find_model(residual.module, model);
-    if (meant == nullptr || left == nullptr) return result;
-
-    std::string why;
-    std::optional<device::Device> device;
-    if (options.execute) device = device::Device::open(options.device, why);
-
+    std::vector<Certificate> result(subjects.size());
+    std::vector<ir::Module> residuals(subjects.size());
     const ir::Module whole = optimize::optimize(general);
-    const SceneBox box{general, called, residual.settings, dropped};
-    const ir::Module bound = optimize::optimize(optimize::specialize(general, box.constants()));
-    const ir::Module emitted = optimize::optimize(residual.module);
-    for (std::size_t i = 0; i < meant->outputs.size(); ++i) {
-        Equality& equality = result.outputs.emplace_back();
-        equality.output = meant->outputs[i].name;
-        const ir::FunctionId of_general = meant->outputs[i].function;
-        const ir::FunctionId of_residual = left->outputs[i].function;
-        equality.same_graph = same_graph(bound, of_general, emitted, of_residual);
-        Output output{whole,   of_general, emitted, of_residual,
-                      sources, box,        options, device ? &*device : nullptr};
-        const std::string text = kept(store, output.key(), [&] {
-            Equality measured;
-            output.compare(measured);
-            std::string line;
-            write_line(line, measured.points, measured.outside, measured.worst,
-                       measured.device_outside, measured.device);
-            return line;
-        });
-        LineReader read{text};
-        read(equality.points);
-        read(equality.outside);
-        read(equality.worst);
-        read(equality.device_outside);
-        read(equality.device);
+    Devices devices{options};
+
+    // What there is to do, subject by subject, each function for itself.
+    std::vector<std::vector<Item>> of_subject(subjects.size());
+    for_each_task(subjects.size(), options.jobs, [&](std::size_t s) {
+        const CertificateSubject& subject = subjects[s];
+        residuals[s] = optimize::optimize(subject.residual->module);
+        const SceneBox box = scene_box(general, subject);
+        const ir::Module bound = optimize::optimize(optimize::specialize(general, box.constants));
+        for (Pair& pair : pairs_of(whole, residuals[s], model)) {
+            Item& item = of_subject[s].emplace_back();
+            item.subject = s;
+            item.box = box;
+            if (subject.lights != nullptr)
+                if (const auto light = subject.lights->find(pair.light);
+                    light != subject.lights->end())
+                    item.box.light = &light->second;
+            item.equality.output = pair.name;
+            item.equality.same_graph = same_graph(bound, pair.meant, residuals[s], pair.emitted);
+            item.pair = std::move(pair);
+        }
+    });
+    std::vector<Item*> items;
+    for (auto& some : of_subject)
+        for (Item& item : some) items.push_back(&item);
+    for_each_task(items.size(), options.jobs, [&](std::size_t i) {
+        Item& item = *items[i];
+        item.work = std::make_unique<Work>(whole, residuals[item.subject], item.pair, sources,
+                                           item.box, options, devices);
+        if (store.load) item.known = store.load(item.work->key());
+    });
+    std::vector<Item*> unknown;
+    for (Item* item : items)
+        if (!item->known) unknown.push_back(item);
+    compare(unknown, options, devices, store);
+
+    for (Item* item : items) {
+        read(*item->known, item->equality);
+        result[item->subject].outputs.push_back(item->equality);
     }
-    optimize::Called left_out = called;
-    for (const Dropped& each : dropped) left_out.off.insert(each.effect);
-    result.kept = not_droppable(general, model, left_out, options);
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (std::size_t s = 0; s < subjects.size(); ++s) {
+        const CertificateSubject& subject = subjects[s];
+        result[s].model = model;
+        result[s].dropped = subject.dropped;
+        optimize::Called left_out = *subject.called;
+        for (const Dropped& each : subject.dropped) left_out.off.insert(each.effect);
+        result[s].kept = not_droppable(general, model, left_out, options);
+    }
     return result;
 }
 

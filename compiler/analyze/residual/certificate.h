@@ -8,7 +8,7 @@
 #include "ir/module.h"
 #include "optimize/residual.h"
 
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,14 +23,14 @@ struct Dropped {
     double observed = 0;  ///< the most that a search found
 };
 
-/// One output of the model.
+/// One output of the model, or the model under one kind of light.
 struct Equality {
-    std::string output;
+    std::string output;       ///< `diffuse`, `under sphere`
     bool same_graph = false;  ///< proved: after `optimize` both are one graph, input for input
     std::size_t points = 0;   ///< of the scene's box, a quarter of them hostile
     std::size_t outside = 0;  ///< where the residual's exact value is none that the general one's
                               ///< acceptance interval allows
-    double worst = 0;         ///< the largest difference in shares of that interval's half width
+    double worst = 0;         ///< differences are at most so many of that interval's half widths
     std::string device;       ///< that the emitted residual ran on; empty: none did
     std::size_t device_outside = 0;  ///< device results outside of the general one's interval
     bool ok() const { return outside == 0 && device_outside == 0; }
@@ -43,7 +43,6 @@ struct Certificate {
     /// What epsilon was asked about and stays: more was found, or no bound below was, or what went
     /// before it left too little.
     std::vector<Dropped> kept;
-    double seconds = 0;
     bool ok() const;
 };
 
@@ -67,10 +66,21 @@ std::vector<Dropped> not_droppable(const ir::Module& module, const std::string& 
                                    const optimize::Called& called,
                                    const CertificateOptions& options);
 
-/// `general` is the checked module; the residual was made of it by `called`.
-Certificate certify(const ir::Module& general, const Sources& sources, const std::string& model,
-                    const optimize::Called& called, const optimize::Residual& residual,
-                    const std::vector<Dropped>& dropped, const CertificateOptions& options,
-                    const Store& store);
+/// A residual shader, made of the general module by `called`. All outlive the call.
+struct CertificateSubject {
+    const optimize::Called* called = nullptr;
+    const optimize::Residual* residual = nullptr;
+    std::vector<Dropped> dropped{};
+    /// What the scene says of the emitters of its lights, by their names; null: nothing.
+    const std::map<std::string, optimize::Called>* lights = nullptr;
+};
+
+/// `general` is the checked module. Of lights, those that a residual is shaded under and the
+/// general module too are compared (lights.h joins them to both). Equal inputs give equal results,
+/// whatever the number of threads.
+std::vector<Certificate> certify(const ir::Module& general, const Sources& sources,
+                                 const std::string& model,
+                                 const std::vector<CertificateSubject>& subjects,
+                                 const CertificateOptions& options, const Store& store);
 
 }  // namespace lobe::analyze

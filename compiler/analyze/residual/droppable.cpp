@@ -65,6 +65,8 @@ std::optional<Experiment> experiment(const ir::Module& general, const std::strin
     ir::Module module = general;
     module.packings.clear();
     module.engines.clear();
+    module.lights.clear();
+    module.shadings.clear();
 
     optimize::Called without = called;
     without.off.insert(effect.name);
