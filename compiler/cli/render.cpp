@@ -1,6 +1,7 @@
 // `lobec render`: a scene under a model, to be looked at.
 #include "render/render.h"
 
+#include "analyze/environment/consistency.h"
 #include "analyze/packing/radiance_box.h"
 #include "analyze/residual/facts.h"
 #include "cli/commands.h"
@@ -8,6 +9,7 @@
 #include "cli/scene_file.h"
 #include "lights.h"
 #include "optimize/residual.h"
+#include "render/sky.h"
 
 #include <fmt/format.h>
 
@@ -69,6 +71,7 @@ struct Render {
                                    options.height);
             told = differences(other, shown, residual.look.shaders.size());
         }
+        told += environment_line(*read);
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
         const std::vector<Output> outputs{{"-o", out, render::png(panel, options.height)}};
         const int status = write(terminal, outputs, success);
@@ -154,6 +157,26 @@ private:
             progress.show(fmt::format("drawing, {}: {} %", what, 100 * done / total));
         };
         return render::render(shown, look, with);
+    }
+
+    /// What shaders take from the environment, against the level that the picture is made from.
+    std::string environment_line(const scene::Scene& shown) const
+    {
+        const analyze::CubeMap map = render::environment_map(shown);
+        if (map.levels.empty() || render::Sky{shown}.is_dark()) return {};
+        analyze::HarmonicSeries irradiance;
+        std::ranges::transform(shown.environment->irradiance, irradiance.begin(),
+                               [&](scene::Color color) {
+                                   for (double& channel : color)
+                                       channel *= shown.environment->intensity;
+                                   return color;
+                               });
+        const auto errors = analyze::environment_errors(map, irradiance, options.jobs);
+        std::string mips;
+        for (const double error : errors.levels) mips += fmt::format(" {:.1f} %", 100 * error);
+        return fmt::format("environment: against the sharpest mip, irradiance is off by {:.1f} %{}"
+                           "{}\n",
+                           100 * errors.irradiance, mips.empty() ? "" : ", coarser mips by", mips);
     }
 
     std::string differences(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace lobe::render {
@@ -23,16 +24,14 @@ Vector3 decoded(const scene::Pixels& pixels, std::size_t at)
            scale;
 }
 
-/// The sharpest mip, or nothing.
-CubeLevel sharpest(const scene::Scene& scene)
+/// A mip, unless it lacks a picture.
+std::optional<CubeLevel> mip_of(const scene::Scene& scene, const std::array<std::size_t, 6>& faces)
 {
-    if (!scene.environment || scene.environment->specular.empty()) return {};
-    const auto& faces = scene.environment->specular.front();
     for (const std::size_t face : faces) {
         const auto& pixels = scene.images[face].pixels;
         if (!pixels || pixels->width != pixels->height ||
             pixels->width != scene.images[faces[0]].pixels->width)
-            return {};
+            return std::nullopt;
     }
     CubeLevel out{scene.images[faces[0]].pixels->width};
     const float intensity = static_cast<float>(scene.environment->intensity);
@@ -42,6 +41,12 @@ CubeLevel sharpest(const scene::Scene& scene)
         for (std::size_t i = 0; i < count; ++i)
             to = std::ranges::copy(decoded(*scene.images[face].pixels, i) * intensity, to).out;
     return out;
+}
+
+CubeLevel sharpest(const scene::Scene& scene)
+{
+    if (!scene.environment || scene.environment->specular.empty()) return {};
+    return mip_of(scene, scene.environment->specular.front()).value_or(CubeLevel{});
 }
 
 struct TexelPlace {
@@ -56,6 +61,18 @@ TexelPlace texel_place(std::size_t texel, int size)
 }
 
 }  // namespace
+
+analyze::CubeMap environment_map(const scene::Scene& scene)
+{
+    analyze::CubeMap out;
+    if (!scene.environment) return out;
+    for (const auto& faces : scene.environment->specular) {
+        auto mip = mip_of(scene, faces);
+        if (!mip) break;
+        out.levels.push_back(std::move(*mip));
+    }
+    return out;
+}
 
 Sky::Sky(const scene::Scene& scene) : texels_{sharpest(scene)}
 {

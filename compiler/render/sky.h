@@ -18,6 +18,10 @@ namespace lobe::render {
 /// Uniform on [0, 1)^2.
 using Pair = std::array<float, 2>;
 
+/// The mips of a scene's environment, times its intensity, up to the first with a picture that
+/// could not be read.
+analyze::CubeMap environment_map(const scene::Scene& scene);
+
 class Sky {
 public:
     /// Nothing shines where the scene has no environment, or its pictures could not be read; then

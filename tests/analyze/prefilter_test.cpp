@@ -1,5 +1,6 @@
 // Environments as cube maps: lookups, levels, prefiltering and spherical harmonics, against
 // environments whose integrals are known.
+#include "analyze/environment/consistency.h"
 #include "analyze/environment/harmonics.h"
 #include "analyze/environment/prefilter.h"
 #include "analyze/environment/sampling.h"
@@ -310,6 +311,39 @@ TEST_CASE("irradiance of a sky is within a few percent of its integral")
         whole = std::max(whole, std::fabs(value_of(irradiance, n)[0] / exact - 1));
     }
     CHECK(whole <= 0.09);
+}
+
+TEST_CASE("an environment that was made right is consistent, and one that was not is told")
+{
+    const CubeMap source = with_levels(cube(32, sky));
+    const CubeMap right = prefiltered(source, {.size = 32, .levels = 5, .samples = 256});
+    const HarmonicSeries irradiance = irradiance_series(radiance_series(source.levels[0]));
+    const EnvironmentErrors none = environment_errors(right, irradiance, 0);
+    // The same texels. The places of lookups are rounded in double: less than a float can show.
+    CHECK(none.irradiance == 0);
+    REQUIRE(none.levels.size() == 4);
+    for (const double error : none.levels) CHECK(error < 0x1p-24);
+
+    // Halves in place of blurred levels, and radiance in place of irradiance.
+    const EnvironmentErrors wrong =
+        environment_errors(source, radiance_series(source.levels[0]), 0);
+    REQUIRE(wrong.levels.size() == 5);
+    for (std::size_t i = 0; i < 4; ++i) CHECK(wrong.levels[i] > 0x1p-24);
+    // The first coefficients alone are too small by a factor of pi.
+    CHECK(wrong.irradiance > (1 - 1 / pi));
+
+    // A sign that is turned around: twice the coefficient, of harmonics whose mean square is
+    // 1 / (4 pi), over the mean. Both sides are a dozen roundings, nothing cancels.
+    HarmonicSeries turned = irradiance;
+    double squares = 0;
+    double whole = 0;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        turned[1][channel] = -turned[1][channel];
+        squares += 4 * irradiance[1][channel] * irradiance[1][channel] / (4 * pi) / 3;
+        whole += irradiance[0][channel] / std::sqrt(4 * pi) / 3;
+    }
+    CHECK(environment_errors(right, turned, 0).irradiance ==
+          Approx(std::sqrt(squares) / whole).epsilon(2 * 12 * 0x1p-53));
 }
 
 TEST_CASE("the shipped term is the series")

@@ -149,3 +149,25 @@ TEST_CASE("no environment and a black one are dark")
     CHECK(Sky{sky_of(2, [](std::size_t, int, int) -> Vector3 { return {}; })}.is_dark());
     CHECK(Sky{scene::Scene{}}.radiance({0, 0, 1}) == Vector3{});
 }
+
+TEST_CASE("the mips of an environment end at a picture that was not read")
+{
+    scene::Scene scene = sky_of(2, [](std::size_t, int, int) -> Vector3 { return {1, 1, 1}; });
+    scene.environment->intensity = 3;
+    scene.images.push_back({});
+    scene.images.back().pixels = scene::Pixels{1, 1, {1, 1, 1, 0.5F}};
+    std::array<std::size_t, 6> faces{};
+    faces.fill(scene.images.size() - 1);
+    scene.environment->specular.push_back(faces);
+    const analyze::CubeMap map = render::environment_map(scene);
+    REQUIRE(map.levels.size() == 2);
+    CHECK(map.levels[0].size == 2);
+    CHECK(map.levels[0].at(0, 0, 0) == analyze::Radiance{3, 3, 3});
+    CHECK(map.levels[1].at(5, 0, 0) == analyze::Radiance{6, 6, 6});  // over its alpha
+
+    scene.images.push_back({});
+    faces[3] = scene.images.size() - 1;
+    scene.environment->specular.push_back(faces);
+    CHECK(render::environment_map(scene).levels.size() == 2);
+    CHECK(render::environment_map(scene::Scene{}).levels.empty());
+}
