@@ -49,6 +49,11 @@ Interval enclosed(const std::optional<double>& constant, float value)
     return {evaluate::next_down(*constant), evaluate::next_up(*constant)};
 }
 
+double nearest(const std::optional<double>& constant, float value)
+{
+    return constant.value_or(static_cast<double>(value));
+}
+
 Real exact(const std::optional<double>& constant, float value)
 {
     return constant ? Real{fmt::format("{}", *constant), exact_bits} : Real{value, exact_bits};
@@ -66,19 +71,19 @@ double share(const Acceptance& allowed, double distance)
     return distance / ((allowed.high - allowed.low) / 2);
 }
 
-/// What two intervals say of one component, if it is enough.
+/// What an interval says of one component, if it is enough.
 struct Settled {
     bool is_settled = false;
     double distance = 0;  ///< of the values, at most
 };
 
-Settled settled(const Acceptance& allowed, const Interval& meant, const Interval& other)
+Settled settled(const Acceptance& allowed, double meant, const Interval& other)
 {
-    if (allowed.undefined || (meant == other && meant.low == meant.high)) return {true, 0};
-    const double widths = (meant.high - meant.low) + (other.high - other.low);
+    if (allowed.undefined || (other.low == meant && other.high == meant)) return {true, 0};
     const bool is_inside = allowed.low <= other.low && other.high <= allowed.high;
-    if (!is_inside || !(widths <= wide * (allowed.high - allowed.low))) return {};
-    return {true, std::max(std::abs(other.high - meant.low), std::abs(meant.high - other.low))};
+    const bool is_narrow = other.high - other.low <= wide * (allowed.high - allowed.low);
+    if (!is_inside || !is_narrow || !std::isfinite(meant)) return {};
+    return {true, std::max(std::abs(other.high - meant), std::abs(meant - other.low))};
 }
 
 }  // namespace
@@ -218,19 +223,23 @@ std::vector<double> Comparison::exactly(const Side& side, std::size_t point) con
 Disagreement Comparison::count(std::size_t first, std::size_t size,
                                const ResultColumns& device) const
 {
-    const auto bounded = [&](const Side& side) {
-        return run<Interval>(side, first, size, enclosed,
-                             [&](const evaluate::Tape& tape, auto in, auto out) {
-                                 evaluate::run(tape, evaluate::Columns<Interval>{in},
-                                               evaluate::Results<Interval>{out}, size);
-                             });
-    };
     const auto allowed = run<Acceptance>(
-        general_, first, size, admitted, [&](const evaluate::Tape& tape, auto in, auto out) {
+        general_, first, size, admitted,
+        [&](const evaluate::Tape& tape, const auto& in, const auto& out) {
             evaluate::run_acceptance(tape, evaluate::Precision::float32, in, out, size);
         });
-    const auto meant = bounded(general_);
-    const auto other = bounded(other_);
+    const auto meant =
+        run<double>(general_, first, size, nearest,
+                    [&](const evaluate::Tape& tape, const auto& in, const auto& out) {
+                        evaluate::run(tape, evaluate::Columns<double>{in},
+                                      evaluate::Results<double>{out}, size);
+                    });
+    const auto other =
+        run<Interval>(other_, first, size, enclosed,
+                      [&](const evaluate::Tape& tape, const auto& in, const auto& out) {
+                          evaluate::run(tape, evaluate::Columns<Interval>{in},
+                                        evaluate::Results<Interval>{out}, size);
+                      });
 
     Disagreement result;
     for (std::size_t i = 0; i < size; ++i) {

@@ -1,8 +1,10 @@
 // Two functions over a scene's box: whether one's exact value is always what the other's acceptance
 // interval allows, and how far their exact values are apart.
 //
-// Exact values are intervals first, rounded outward in double: they settle nearly all points. Where
-// an interval is too wide to tell, 113 bits tell.
+// The other's exact value is an interval first, rounded outward in double, which settles nearly all
+// points; how far it is from the general one's is told in double, whose roundings are 2^-29 of
+// those that the acceptance interval allows. Where the interval is too wide to tell, 113 bits tell
+// both.
 #pragma once
 
 #include "analyze/physics/emitted_function.h"
