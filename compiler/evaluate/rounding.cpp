@@ -129,6 +129,28 @@ Rounded rounded_input(const Rounding& rounding, Interval range)
     return result;
 }
 
+Rounded rounded_part(const Rounded& whole, Interval part)
+{
+    Rounded result = whole;
+    result.exact = part;
+    if (whole.relative < infinity)
+        result.absolute = std::min(whole.absolute,
+                                   outward(times(whole.relative, size(part)) + whole.underflow));
+    if (const double least = least_size(part); least > 0) {
+        const double direct = outward(result.absolute / least);
+        if (direct < whole.relative && direct <= 0x1p-2) {
+            result.relative = direct;
+            result.underflow = 0;
+        }
+    }
+    const double off = outward(result.absolute + whole.jump);
+    if (off < infinity)
+        result.computed =
+            common(whole.computed, {add_down(part.low, -off), add_up(part.high, off)});
+    result.smallest = std::max(whole.smallest, least_size(result.computed));
+    return result;
+}
+
 Rounded rounded_literal(const Rounding& rounding, const ir::Literal& literal)
 {
     Rounded result;

@@ -77,6 +77,8 @@ struct Step {
 
 /// An input whose values are exact numbers of the format.
 Rounded rounded_input(const Rounding& rounding, Interval range);
+/// A value that others gave, where it lies in this part of its range.
+Rounded rounded_part(const Rounded& whole, Interval part);
 Rounded rounded_literal(const Rounding& rounding, const ir::Literal& literal);
 
 /// One operation. Of the tape's, not those that `rounding_tape` (rounding_tape.h) takes apart;

@@ -140,7 +140,8 @@ Step Rules::long_sum()
     const bool positive = std::ranges::all_of(
         in_, [](const Rounded& x) { return x.exact.low >= 0 && x.computed.low >= 0; });
     if (positive) {
-        own.relative = outward(3 * rounding_.unit * (1 + 4 * rounding_.unit));
+        own.relative = outward(static_cast<double>(in_.size() - 1) * rounding_.unit *
+                               (1 + 4 * rounding_.unit));
         own.underflow = rounding_.flushes ? 4 * rounding_.least_normal : 0;
         for (std::size_t i = 0; i < in_.size(); ++i)
             slopes_[i].rr = common(slopes_[i].rr, unit_range);

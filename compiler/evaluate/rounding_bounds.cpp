@@ -41,6 +41,15 @@ bool is_choice(TapeOp op, Interval first)
     }
 }
 
+/// Smoothstep is its polynomial alone.
+Interval value_of(TapeOp op, const std::array<Interval, 4>& in)
+{
+    return op == TapeOp::smoothstep ? smoothstep({0, 0}, {1, 1}, in[0])
+                                    : apply(op, in[0], in[1], in[2], in[3]);
+}
+
+double middle(Interval x) { return x.low / 2 + x.high / 2; }
+
 /// True for an operand whose error an adjoint may carry in these units.
 bool carries(Interval slope, double error) { return error == 0 || is_bounded(slope); }
 
@@ -51,11 +60,36 @@ Interval scaled(Interval adjoint, Interval slope)
 
 }  // namespace
 
-RoundingBounds::RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor)
-    : tape_{tape}, rounding_{rounding}, floor_{floor}, values_(tape.nodes.size()),
-      ranges_(tape.nodes.size()), steps_(tape.nodes.size()), operands_(tape.nodes.size()),
-      adjoint_(tape.nodes.size()), trend_(tape.inputs.size())
+/// What is squared, of a root of a sum of squares; else nothing.
+std::vector<std::uint32_t> components(const RoundingTape& tape, const RoundingNode& root)
 {
+    if (root.kind != RoundingNode::Kind::operation || root.op != TapeOp::square_root) return {};
+    const RoundingNode& sum = tape.nodes[root.operands[0]];
+    if (sum.kind != RoundingNode::Kind::operation ||
+        (sum.op != TapeOp::add && sum.op != TapeOp::sum3 && sum.op != TapeOp::sum4))
+        return {};
+    std::vector<std::uint32_t> result;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(sum.arity); ++k) {
+        const RoundingNode& square = tape.nodes[sum.operands[k]];
+        if (square.kind != RoundingNode::Kind::operation || square.op != TapeOp::square) return {};
+        result.push_back(square.operands[0]);
+    }
+    return result;
+}
+
+RoundingBounds::RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor)
+    : RoundingBounds{tape, rounding, floor, {}}
+{
+}
+
+RoundingBounds::RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor,
+                               std::vector<Rounded> given)
+    : tape_{tape}, rounding_{rounding}, floor_{floor}, given_{std::move(given)},
+      values_(tape.nodes.size()), ranges_(tape.nodes.size()), steps_(tape.nodes.size()),
+      operands_(tape.nodes.size()), adjoint_(tape.nodes.size()),
+      trend_(std::max(tape.inputs.size(), given_.size()))
+{
+    for (const RoundingNode& node : tape.nodes) components_.push_back(components(tape, node));
     for (std::size_t i = 0; i < tape.nodes.size(); ++i)
         if (tape.nodes[i].kind == RoundingNode::Kind::literal)
             values_[i] = rounded_literal(rounding, tape.nodes[i].literal);
@@ -74,17 +108,103 @@ Rounded RoundingBounds::limited(const RoundingNode& node, std::size_t operand) c
 
 void RoundingBounds::forward(std::span<const Interval> box)
 {
+    start_centers(box);
     for (std::size_t i = 0; i < tape_.nodes.size(); ++i) {
         const RoundingNode& node = tape_.nodes[i];
         if (node.kind == RoundingNode::Kind::input)
-            values_[i] = rounded_input(rounding_, box[node.input]);
+            values_[i] = given_.empty() ? rounded_input(rounding_, box[node.input])
+                                        : rounded_part(given_[node.input], box[node.input]);
         if (node.kind != RoundingNode::Kind::operation) continue;
         const auto arity = static_cast<std::size_t>(node.arity);
         for (std::size_t k = 0; k < arity; ++k)
             operands_[i][k] = node.limits.empty() ? values_[node.operands[k]] : limited(node, k);
         steps_[i] = step(rounding_, node.op, {operands_[i].data(), arity});
         values_[i] = steps_[i].value;
+        if (!components_[i].empty()) as_length(i);
+        if (!middle_.empty()) center(i, box);
     }
+}
+
+void RoundingBounds::start_centers(std::span<const Interval> box)
+{
+    // On narrow boxes of a few sides it pays.
+    constexpr std::size_t most_sides = 6;
+    if (box.size() > most_sides) return;
+    middle_.resize(tape_.nodes.size());
+    gradient_.assign(tape_.nodes.size() * box.size(), Interval{});
+    for (std::size_t i = 0; i < tape_.nodes.size(); ++i) {
+        const RoundingNode& node = tape_.nodes[i];
+        if (node.kind == RoundingNode::Kind::literal) middle_[i] = values_[i].exact;
+        if (node.kind != RoundingNode::Kind::input) continue;
+        const double at = middle(box[node.input]);
+        middle_[i] = {at, at};
+        gradient_[i * box.size() + node.input] = {1, 1};
+    }
+}
+
+/// f(x) is f(m) and no more than its slopes over the box times x - m ([Moore79]): on a narrow box
+/// that is less than what the operations one by one can be, for they forget that their operands
+/// move together.
+void RoundingBounds::center(std::size_t i, std::span<const Interval> box)
+{
+    const RoundingNode& node = tape_.nodes[i];
+    const auto arity = static_cast<std::size_t>(node.arity);
+    std::array<Interval, 4> in{};
+    bool is_smooth = !is_choice(node.op, operands_[i][0].exact);
+    for (std::size_t k = 0; k < arity; ++k) {
+        in[k] = middle_[node.operands[k]];
+        // Where a limit holds is no box.
+        is_smooth = is_smooth && operands_[i][k].exact == values_[node.operands[k]].exact;
+    }
+    middle_[i] = value_of(node.op, in);
+    Interval range = middle_[i];
+    for (std::size_t side = 0; side < box.size(); ++side) {
+        Interval& total = gradient_[i * box.size() + side];
+        total = is_smooth ? Interval{} : everything;
+        for (std::size_t k = 0; is_smooth && k < arity; ++k) {
+            const Interval& inner = gradient_[node.operands[k] * box.size() + side];
+            const Interval& slope = steps_[i].slopes[k].aa;
+            if (inner == Interval{}) continue;
+            const bool is_known = is_bounded(slope) && is_bounded(inner);
+            total = is_known ? add(total, multiply(slope, inner)) : everything;
+            if (!is_known) break;
+        }
+        if (!is_bounded(total) || !is_bounded(range)) {
+            range = everything;
+            continue;
+        }
+        const double at = middle(box[side]);
+        range = add(range, multiply(total, subtract(box[side], {at, at})));
+    }
+    const Interval tighter = common(values_[i].exact, range);
+    if (tighter.low > tighter.high || tighter == values_[i].exact) return;
+    const Rounded whole = values_[i];
+    values_[i] = rounded_part(whole, tighter);
+}
+
+/// A length is off by no more than the length of what its components are off by, however short it
+/// is: next to 0 the slope of the root says nothing.
+void RoundingBounds::as_length(std::size_t root)
+{
+    double squares = 0;
+    for (const std::uint32_t node : components_[root]) {
+        const double off = values_[node].absolute;
+        squares = outward(squares + times(off, off));
+    }
+    const double moved = outward(root_up(squares));
+    Rounded& value = values_[root];
+    if (!(moved < infinity) || !is_bounded(value.computed)) return;
+    // The root of the squares of what was computed, and what was computed of them: a rounding of
+    // each square and of every addition, half of it under the root, and the root's own.
+    const bool any = rounding_.machine == Machine::vulkan;
+    const auto count = static_cast<double>(components_[root].size());
+    const double own = (count / 2 + (any ? 4.5 : 1)) * rounding_.unit * (1 + 0x1p-6);
+    const double least = rounding_.flushes ? rounding_.least_normal : rounding_.least;
+    const double small = root_up(4 * (count + 1) * least);
+    value.absolute = std::min(
+        value.absolute, outward(moved + times(own, outward(size(value.exact) + moved)) + small));
+    const Rounded whole = value;
+    value = rounded_part(whole, whole.exact);
 }
 
 /// The values over the reals alone.
@@ -100,12 +220,7 @@ Interval RoundingBounds::exact_range(std::span<const Interval> box) const
             in[k] = ranges_[node.operands[k]];
         for (const Limit& limit : node.limits)
             in[limit.operand] = cut(in[limit.operand], limit.kind, ranges_[limit.other]);
-        if (node.op == TapeOp::smoothstep) {
-            // The polynomial alone.
-            ranges_[i] = smoothstep({0, 0}, {1, 1}, in[0]);
-            continue;
-        }
-        ranges_[i] = apply(node.op, in[0], in[1], in[2], in[3]);
+        ranges_[i] = value_of(node.op, in);
     }
     return ranges_.back();
 }

@@ -26,6 +26,9 @@ struct BoxError {
 class RoundingBounds {
 public:
     RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor);
+    /// With inputs that are results (waist.h): what each is over its whole range.
+    RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor,
+                   std::vector<Rounded> given);
 
     /// One interval per input of the tape.
     BoxError error(std::span<const Interval> box);
@@ -34,6 +37,9 @@ public:
 
 private:
     void forward(std::span<const Interval> box);
+    void as_length(std::size_t root);
+    void start_centers(std::span<const Interval> box);
+    void center(std::size_t node, std::span<const Interval> box);
     Rounded limited(const RoundingNode& node, std::size_t operand) const;
     Interval exact_range(std::span<const Interval> box) const;
     Interval monotone_range(std::span<const Interval> box) const;
@@ -44,11 +50,18 @@ private:
     const RoundingTape& tape_;
     const Rounding& rounding_;
     double floor_;
+    /// Of a root of a sum of squares: what is squared.
+    std::vector<std::vector<std::uint32_t>> components_;
+    std::vector<Rounded> given_;  ///< empty: inputs are exact
     std::vector<Rounded> values_;
     mutable std::vector<Interval> ranges_;
     std::vector<Step> steps_;
     std::vector<std::array<Rounded, 4>> operands_;
     std::vector<Interval> adjoint_;
+    /// Mean value forms: the exact values at the middle of the box, and by node and input how they
+    /// change from there. Empty for boxes of many sides.
+    std::vector<Interval> middle_;
+    std::vector<Interval> gradient_;
     /// How the exact result depends on each input over the last box: 1 rises, -1 falls, 0 unknown.
     std::vector<int> trend_;
 };

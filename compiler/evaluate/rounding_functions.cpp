@@ -158,8 +158,7 @@ Step Rules::exponential(double scale)
         scale == 1 ? Interval{1.4426950408889634, 1.4426950408889636} : Interval{1, 1},
         a().computed);
     if (rounding_.machine == Machine::vulkan)
-        own = within(through, (3 + 2 * std::min(size(bits), 1100.0) + 0.25) * rounding_.unit,
-                     infinity, true);
+        own = raised(bits, through, 0, 0);
     else if (op_ == TapeOp::exp2 && rounding_.digits == 24)
         own = within(through, exp2_error, infinity, true);
     if (a().computed == Interval{0, 0} && rounding_.nearest) own = exactly();
@@ -207,20 +206,27 @@ Own Rules::powers(Interval exponent, Interval through) const
     const double u = rounding_.unit;
     double of_log = log2_error;  // relative
     double near = 0;             // absolute, of log2
-    double of_exp = exp2_error;
-    double per_exponent = 0;
     if (rounding_.machine == Machine::vulkan) {
         of_log = 3 * u * (1 + 0x1p-8);
         if (a().computed.low <= 2 && a().computed.high >= 0.5)
             near = (rounding_.digits == 24 ? 0x1p-21 : 0x1p-7) * (1 + 2 * u) * size(b().computed);
-        of_exp = 3.25 * u;
-        per_exponent = 2 * u * (1 + 0x1p-8);
     }
-    // Error of the exponent, per its size, and what exp2 adds.
-    const double slope = ln2 * (of_log + u * (1 + of_log)) + per_exponent;
-    const double fixed = ln2 * near + of_exp;
+    // Error of the exponent, per its size, beside what exp2 adds.
+    return raised(exponent, through, ln2 * (of_log + u * (1 + of_log)), ln2 * near);
+}
+
+/// The error of exp2 for computed exponents that are off by `per_exponent` of their size over ln 2,
+/// and by `fixed` over ln 2.
+Own Rules::raised(Interval exponent, Interval through, double per_exponent, double fixed) const
+{
+    if (rounding_.machine == Machine::vulkan) {
+        per_exponent += 2 * rounding_.unit * (1 + 0x1p-8);
+        fixed += 3.25 * rounding_.unit;
+    } else {
+        fixed += exp2_error;
+    }
     const auto at = [&](double e) {
-        const double first = slope * e + fixed;
+        const double first = per_exponent * e + fixed;
         return first > 0.1 ? infinity : outward(first * (1 + 2 * first));
     };
     Own own;
@@ -233,7 +239,7 @@ Own Rules::powers(Interval exponent, Interval through) const
         own.underflow = rounding_.flushes ? 2 * rounding_.least_normal : 4 * rounding_.least;
     // Far down the error fades with the result: 2^-e e, as fading(e ln 2) / ln 2.
     const Interval depth{std::max(-exponent.high, 0.0) * ln2, std::max(-exponent.low, 0.0) * ln2};
-    const double first = slope / ln2 * most_fading(depth) + fixed * std::exp(-depth.low);
+    const double first = per_exponent / ln2 * most_fading(depth) + fixed * std::exp(-depth.low);
     const double worst = at(down);
     const double below = outward(first * (1 + 2 * worst));
     own.absolute = up > 0 ? std::max(below, outward(own.relative * size(through))) : below;

@@ -78,6 +78,7 @@ private:
     Step logarithm(double scale);
     Step power();
     Own powers(Interval exponent, Interval through) const;
+    Own raised(Interval exponent, Interval through, double per_exponent, double fixed) const;
     Step wave();
     Step arc();
 

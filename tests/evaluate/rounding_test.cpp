@@ -7,6 +7,7 @@
 #include "evaluate/literals.h"
 #include "evaluate/random_graph.h"
 #include "evaluate/rounding_bounds.h"
+#include "evaluate/waist.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -131,10 +132,31 @@ void require_bound(const BoxError& error, double computed, const Real& exact, Ta
     if (error.jump == 0) REQUIRE(off <= error.relative * size * (1 + 0x1p-40));
 }
 
+/// What is proved of an output over a box: from its inputs, and from each of its waists.
+std::vector<BoxError> errors_of(const RoundingTape& steps, Machine machine, Precision precision,
+                                const std::vector<Interval>& box)
+{
+    const Rounding& how = rounding(machine, precision);
+    RoundingBounds bounds{steps, how, floor_of_test};
+    std::vector<BoxError> result{bounds.error(box)};
+    for (const auto& waist : waists(steps)) {
+        std::vector<Rounded> given;
+        std::vector<Interval> sides;
+        for (const std::uint32_t node : waist) {
+            given.push_back(bounds.values()[node]);
+            sides.push_back(given.back().exact);
+        }
+        const RoundingTape rest = behind(steps, waist);
+        result.push_back(RoundingBounds{rest, how, floor_of_test, given}.error(sides));
+    }
+    return result;
+}
+
 template <class Run>
 Tally check(Machine machine, Precision precision, const RandomShape& shape, const Run& computed_of)
 {
     Tally tally;
+    Tally of_waists;
     for (unsigned seed = 0; seed < module_count; ++seed) {
         std::mt19937 random{seed};
         const ir::Module module = random_module(random, shape);
@@ -144,23 +166,25 @@ Tally check(Machine machine, Precision precision, const RandomShape& shape, cons
             const auto computed = computed_of(s);
             for (std::size_t k = 0; k < s.tape.outputs.size(); ++k) {
                 const RoundingTape steps = rounding_tape(s.tape, k, Detail::steps);
-                RoundingBounds bounds{steps, rounding(machine, precision), floor_of_test};
-                const BoxError error = bounds.error(box_of(steps, s.box));
-                for (std::size_t p = 0; p < s.points.size(); ++p) {
-                    INFO("seed " << seed << ", box " << which << ", point " << p << ", output "
-                                 << k);
-                    INFO(dump(steps));
-                    INFO("proved [" << error.computed.low << ", " << error.computed.high << "], "
-                                    << error.absolute << ", " << error.relative << ", jump "
-                                    << error.jump);
-                    for (const double value : computed[p][k]) {
-                        INFO("computed " << value << ", exact " << truth[p][k].text());
-                        require_bound(error, value, truth[p][k], tally);
+                const auto errors = errors_of(steps, machine, precision, box_of(steps, s.box));
+                for (std::size_t e = 0; e < errors.size(); ++e)
+                    for (std::size_t p = 0; p < s.points.size(); ++p) {
+                        const BoxError& error = errors[e];
+                        INFO("seed " << seed << ", box " << which << ", point " << p << ", output "
+                                     << k << ", waist " << e);
+                        INFO(dump(steps));
+                        INFO("proved [" << error.computed.low << ", " << error.computed.high
+                                        << "], " << error.absolute << ", " << error.relative
+                                        << ", jump " << error.jump);
+                        for (const double value : computed[p][k]) {
+                            INFO("computed " << value << ", exact " << truth[p][k].text());
+                            require_bound(error, value, truth[p][k], e == 0 ? tally : of_waists);
+                        }
                     }
-                }
             }
         }
     }
+    CHECK(of_waists.points > tally.points);
     return tally;
 }
 
@@ -242,6 +266,35 @@ Values on_devices(const Sample& s, Precision precision)
 RandomShape smooth_shape() { return {.functions = 2, .expressions = 10, .selects = false}; }
 
 }  // namespace
+
+TEST_CASE("a squared distance is a waist of its falloff")
+{
+    ir::Module module;
+    ir::Function f;
+    f.name = "f";
+    std::vector<ir::ExprId> x;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        f.inputs.push_back(number_input("x" + std::to_string(i), -1024, 1024));
+        x.push_back(f.graph.input(i, ir::Type::scalar));
+    }
+    const auto squared = [&](std::size_t i) {
+        return f.graph.apply(ir::Op::multiply, {x[i], x[i]});
+    };
+    const ir::ExprId one = f.graph.literal(1.0);
+    const ir::ExprId sum = f.graph.apply(
+        ir::Op::add, {f.graph.apply(ir::Op::add, {squared(0), squared(1)}), squared(2)});
+    f.result = f.graph.apply(ir::Op::divide, {one, f.graph.apply(ir::Op::add, {sum, one})});
+    module.functions.push_back(f);
+
+    const RoundingTape steps = rounding_tape(compile(module, f), 0, Detail::steps);
+    const auto all = waists(steps);
+    REQUIRE_FALSE(all.empty());
+    REQUIRE(all.front().size() == 1);
+    const RoundingTape rest = behind(steps, all.front());
+    // 1 / (d + 1), or less of it.
+    CHECK(rest.nodes.size() <= 4);
+    CHECK(std::ranges::count(rest.nodes, RoundingNode::Kind::input, &RoundingNode::kind) == 1);
+}
 
 TEST_CASE("float stays in what was proved of the kernels")
 {
