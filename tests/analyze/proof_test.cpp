@@ -3,6 +3,7 @@
 #include "analyze/proof/bounds.h"
 #include "analyze/proof/finite.h"
 #include "analyze/proof/proof.h"
+#include "analyze/proof/zeros.h"
 #include "analyze/random.h"
 #include "base/render.h"
 #include "compile.h"
@@ -78,7 +79,7 @@ Proof only(const ir::Module& module, const ProofOptions& options)
 Box part_of(const Subject& subject, Random& random)
 {
     Box box = subject.box;
-    for (std::uint32_t i = random.below(24); i-- > 0;) {
+    for (std::uint32_t i = random.below(24); i-- > 0 && !box.empty();) {
         std::vector<Cut> cuts;
         const std::size_t side = random.below(static_cast<std::uint32_t>(box.size()));
         cuts_of(box[side], side, cuts);
@@ -127,7 +128,7 @@ std::size_t hold(const Subject& subject, std::size_t boxes, std::size_t points)
     return boxes * points;
 }
 
-const std::vector<std::string> shipped{"microfacet", "callisto", "ue4"};
+const std::vector<std::string> shipped{"microfacet", "callisto", "ue4", "lights", "environment"};
 
 }  // namespace
 
@@ -143,6 +144,71 @@ TEST_CASE("points of shipped terms never leave a proved bound, in float and in h
     }
     // Two precisions of some sixty terms and models.
     CHECK(held > 1'000'000);
+}
+
+TEST_CASE("points never leave a bound that starts at a waist", "[proof]")
+{
+    std::size_t waists = 0;
+    for (const std::string& name : shipped) {
+        const ir::Module module = model(name);
+        for (const ir::FunctionId id : terms(module))
+            for (const Precision precision : {Precision::float32, Precision::float16})
+                for (const Subject& subject : subjects(module, module[id], precision)) {
+                    INFO(module[id].name);
+                    std::vector<Observed> values;
+                    std::vector<Point> points = points_in(subject, subject.box, 2048, 1);
+                    for (Point& point : points_at_zeros(subject, subject.box, 512, 2))
+                        points.push_back(std::move(point));
+                    evaluate_points(subject, points, values);
+                    // What overflows is told as a jump, and so is what a turned decision does.
+                    std::vector<Point> finite;
+                    for (std::size_t i = 0; i < points.size(); ++i)
+                        if (std::isfinite(values[i].computed)) finite.push_back(points[i]);
+                    evaluate_points(subject, finite, values);
+                    Worst worst{subject, Measure::absolute};
+                    worst.consider(finite, values);
+                    for (const Subject& from : from_waists(subject, Machine::kernels, false)) {
+                        Division division{from, Machine::kernels, Measure::absolute, worst};
+                        division.refine(1 << 8, 1);
+                        // As above: the exact value is a double's.
+                        REQUIRE(worst.error() <= division.bound() * (1 + 0x1p-20));
+                        ++waists;
+                    }
+                }
+    }
+    CHECK(waists > 1000);
+}
+
+TEST_CASE("a falloff is proved of the distance, not of three coordinates", "[proof]")
+{
+    const ir::Module module = text("module m\n"
+                                   "term f(p: float3 in [-2^20, 2^20]) -> float =\n"
+                                   "  (1 - min(dot(p, p) / 2^30, 1))^2 / (dot(p, p) + 1)\n");
+    ProofOptions options;
+    options.precisions = {Precision::float32};
+    options.boxes = 1 << 12;
+    CHECK(only(module, options).ieee.ratio() < 10);
+}
+
+TEST_CASE("points are found at which several sums vanish together", "[proof]")
+{
+    // The middle of a segment, as seen from its end: a direction that rounding turns.
+    const ir::Module module =
+        text("module m\n"
+             "term f(p: float3 in [-2^20, 2^20], axis: direction, s: float in [0, 4096])\n"
+             "  -> float3 = normalize(p - s * axis)\n");
+    const Subject subject = subjects(module, module[terms(module).front()], Precision::float32)[0];
+    std::vector<Observed> values;
+    const auto worst_of = [&](const std::vector<Point>& points) {
+        evaluate_points(subject, points, values);
+        double worst = 0;
+        for (const Observed& value : values)
+            worst = std::max(worst, error_of(subject, value, Measure::absolute));
+        return worst;
+    };
+    constexpr std::size_t count = 1 << 14;
+    CHECK(worst_of(points_in(subject, subject.box, count, 1)) < 0.1);
+    CHECK(worst_of(points_at_zeros(subject, subject.box, count, 1)) > 0.1);
 }
 
 TEST_CASE("every shipped function is finite in float on any device", "[proof]")

@@ -1,10 +1,12 @@
 #include "analyze/proof/bounds.h"
 
 #include "analyze/grid.h"
+#include "analyze/proof/zeros.h"
 #include "evaluate/bounds.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -83,8 +85,10 @@ std::vector<Box> by_conditions(const Subject& subject)
 }  // namespace
 
 Division::Division(const Subject& subject, Machine machine, Measure measure, Worst& worst)
-    : subject_{subject}, measure_{measure}, worst_{worst},
-      bounds_{subject.steps, evaluate::rounding(machine, subject.precision), subject.floor}
+    : subject_{subject}, measure_{measure}, worst_{worst}, bounds_{subject.steps,
+                                                                   evaluate::rounding(
+                                                                       machine, subject.precision),
+                                                                   subject.floor, subject.given}
 {
     for (Box& box : by_conditions(subject)) {
         leaves_.push_back(leaf(std::move(box), 0));
@@ -102,7 +106,7 @@ void Division::refine(std::size_t budget, double target)
 {
     const std::size_t end = spent_ + boxes_within(budget, subject_);
     while (spent_ < end && bound() > 0 && bound() > target * worst_.error()) {
-        if (spent_ >= next_search_) {
+        if (spent_ >= next_search_ && subject_.given.empty()) {
             next_search_ += next_search_ / 2;
             search();
         } else if (!divide_worst()) {
@@ -161,6 +165,7 @@ void Division::search()
         worst_.consider(points, values);
     };
     look(points_in(subject_, leaves_.front().box, 512, spent_));
+    look(points_at_zeros(subject_, leaves_.front().box, 64, spent_));
     for (std::size_t round = 0; round < 4 && worst_.point() != nullptr; ++round) {
         const auto& entries = worst_.entries();
         const Point center = entries[round % entries.size()].point;
@@ -244,6 +249,48 @@ bool Division::divide_worst()
     return true;
 }
 
+Bound::Bound(const Subject& subject, Machine machine, Measure measure, Worst& worst)
+    : subject_{subject}, machine_{machine}, measure_{measure}, worst_{worst}
+{
+    divisions_.emplace_back(subject, machine, measure, worst);
+}
+
+std::size_t Bound::best() const
+{
+    const auto best = std::ranges::min_element(divisions_, {}, &Division::bound);
+    return static_cast<std::size_t>(best - divisions_.begin());
+}
+
+void Bound::start_waists()
+{
+    if (std::exchange(started_, true)) return;
+    from_ = from_waists(subject_, machine_, measure_ == Measure::jump);
+    for (const Subject& from : from_) divisions_.emplace_back(from, machine_, measure_, worst_);
+}
+
+void Bound::refine(std::size_t budget, double target)
+{
+    divisions_.front().refine(budget / 4, target);
+    if (ratio() <= target) return;
+    start_waists();
+    // A part of the budget to see which way leads anywhere: in every round the better half goes on.
+    std::vector<std::size_t> order(divisions_.size());
+    std::iota(order.begin(), order.end(), 0);
+    while (order.size() > 1 && ratio() > target) {
+        for (const std::size_t i : order) divisions_[i].refine(budget / 16 / order.size(), target);
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return divisions_[i].bound(); });
+        order.resize((order.size() + 1) / 2);
+    }
+    divisions_[best()].refine(budget / 2, target);
+}
+
+std::size_t Bound::boxes() const
+{
+    std::size_t total = 0;
+    for (const Division& division : divisions_) total += division.boxes();
+    return total;
+}
+
 void cuts_of(const Interval& side, std::size_t index, std::vector<Cut>& cuts)
 {
     if (!(side.low < side.high)) return;
@@ -273,29 +320,36 @@ void cuts_of(const Interval& side, std::size_t index, std::vector<Cut>& cuts)
 
 std::pair<Box, Box> halves(const Subject& subject, const Box& box, const Cut& cut)
 {
-    const Grid& grid = grid_of(subject.precision);
+    std::pair<Box, Box> result{box, box};
     const Interval& side = box[cut.side];
+    if (!subject.given.empty()) {
+        result.first[cut.side].high = result.second[cut.side].low = cut.at;
+        return result;
+    }
+    const Grid& grid = grid_of(subject.precision);
     double at = on_grid(cut.at, side, subject.precision);
     if (at >= side.high) at = next_below(side.high, grid);
-    std::pair<Box, Box> result{box, box};
     result.first[cut.side].high = at;
     result.second[cut.side].low = next_above(at, grid);
     return result;
 }
 
-void explore(const Subject& subject, const std::vector<Worst*>& worst)
+void explore(const Subject& subject, const std::vector<Worst*>& worst, std::uint64_t round)
 {
     std::vector<Observed> values;
     const auto look = [&](const std::vector<Point>& points) {
         evaluate_points(subject, points, values);
         for (Worst* each : worst) each->consider(points, values);
     };
-    for (std::uint64_t batch = 0; batch < 16; ++batch)
-        look(points_in(subject, subject.box, 2048, batch << 20));
+    std::uint64_t next = round << 8;
+    const auto key = [&next] { return next++ << 20; };
+    for (int batch = 0; batch < 16; ++batch) look(points_in(subject, subject.box, 2048, key()));
+    for (int batch = 0; batch < 2; ++batch)
+        look(points_at_zeros(subject, subject.box, boxes_within(4096, subject), key()));
     for (Worst* each : worst)
-        for (std::uint64_t round = 0; round < 48 && each->point() != nullptr; ++round) {
-            const Point center = each->entries()[round * round % each->entries().size()].point;
-            look(points_near(subject, center, 512, (round + 100) << 20));
+        for (std::size_t climb = 0; climb < 48 && each->point() != nullptr; ++climb) {
+            const Point center = each->entries()[climb * climb % each->entries().size()].point;
+            look(points_near(subject, center, 512, key()));
         }
 }
 

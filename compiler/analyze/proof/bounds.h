@@ -18,7 +18,8 @@ struct Cut {
 };
 /// Where it makes sense to cut a side: in the middle, by binades toward 0, and toward 1.
 void cuts_of(const evaluate::Interval& side, std::size_t index, std::vector<Cut>& cuts);
-/// Both halves; their ends are numbers of the grid, and every such number is in one of them.
+/// Both halves. Every number is in one of them; where sides hold numbers of the grid alone, their
+/// ends are such.
 std::pair<Box, Box> halves(const Subject& subject, const Box& box, const Cut& cut);
 
 /// The boxes of one subject, machine and measure. `worst` is where the search for bad points goes
@@ -61,7 +62,33 @@ private:
     std::size_t next_search_ = 64;
 };
 
-/// Finds bad points of the whole box, before any division.
-void explore(const Subject& subject, const std::vector<Worst*>& worst);
+/// The least bound known of a subject: of its own boxes, or of those of one of its waists.
+class Bound {
+public:
+    Bound(const Subject& subject, evaluate::Machine machine, Measure measure, Worst& worst);
+
+    /// As `Division::refine`. Waists are looked at where the subject's own boxes do not get there;
+    /// what is best by then gets the rest of the budget.
+    void refine(std::size_t budget, double target);
+
+    double value() const { return divisions_[best()].bound(); }
+    double ratio() const { return divisions_[best()].ratio(); }
+    std::size_t boxes() const;
+
+private:
+    std::size_t best() const;
+    void start_waists();
+
+    const Subject& subject_;
+    evaluate::Machine machine_;
+    Measure measure_;
+    Worst& worst_;
+    std::vector<Subject> from_;        ///< not moved once divided
+    std::vector<Division> divisions_;  ///< the first is of the subject's own boxes
+    bool started_ = false;
+};
+
+/// Finds bad points of the whole box, before any division; further ones with every `round`.
+void explore(const Subject& subject, const std::vector<Worst*>& worst, std::uint64_t round);
 
 }  // namespace lobe::analyze

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -32,6 +33,8 @@ constexpr double sharp = 4;
 constexpr double sharp_vulkan = 16;
 /// The better of both measures is divided on while it is above this.
 constexpr double wanted = 8;
+/// How often worse points are looked for where it is.
+constexpr std::uint64_t most_rounds = 16;
 /// From here no budget gets there.
 constexpr double hopeless = 1e6;
 
@@ -235,27 +238,34 @@ private:
         Worst absolute{subject, Measure::absolute};
         Worst relative{subject, Measure::relative};
         Worst jumps{subject, Measure::jump};
-        explore(subject, {&absolute, &relative, &jumps});
+        explore(subject, {&absolute, &relative, &jumps}, 0);
 
-        Division by_absolute{subject, Machine::kernels, Measure::absolute, absolute};
-        Division by_relative{subject, Machine::kernels, Measure::relative, relative};
+        Bound by_absolute{subject, Machine::kernels, Measure::absolute, absolute};
+        Bound by_relative{subject, Machine::kernels, Measure::relative, relative};
         by_absolute.refine(share(16), sharp);
         by_relative.refine(share(16), sharp);
-        // One good measure is enough; the one that is closer gets the rest.
-        const double ratio = std::min(by_absolute.ratio(), by_relative.ratio());
-        if (ratio > wanted && ratio < hopeless)
-            (by_absolute.ratio() <= by_relative.ratio() ? by_absolute : by_relative)
-                .refine(share(1), wanted);
-        Division by_jump{subject, Machine::kernels, Measure::jump, jumps};
+        // One good measure is enough: the one that is closer goes on, then the other; and if that
+        // does not do, worse points are looked for.
+        std::array<Bound*, 2> measures{&by_absolute, &by_relative};
+        std::ranges::stable_sort(measures, {}, &Bound::ratio);
+        const auto is_far = [&measures] {
+            const double ratio = std::min(measures[0]->ratio(), measures[1]->ratio());
+            return ratio > wanted && ratio < hopeless;
+        };
+        for (Bound* const measure : measures)
+            if (is_far()) measure->refine(share(1), wanted);
+        for (std::uint64_t round = 1; round <= most_rounds && is_far(); ++round)
+            explore(subject, {&absolute, &relative, &jumps}, round);
+        Bound by_jump{subject, Machine::kernels, Measure::jump, jumps};
         by_jump.refine(share(16), sharp);
         take(out_.ieee, by_absolute, by_relative, by_jump);
         observe(subject, relative, out_.ieee.observed_relative);
         observe(subject, absolute, out_.ieee.observed_absolute);
         observe(subject, jumps, out_.ieee.observed_jump);
 
-        Division any_absolute{subject, Machine::vulkan, Measure::absolute, absolute};
-        Division any_relative{subject, Machine::vulkan, Measure::relative, relative};
-        Division any_jump{subject, Machine::vulkan, Measure::jump, jumps};
+        Bound any_absolute{subject, Machine::vulkan, Measure::absolute, absolute};
+        Bound any_relative{subject, Machine::vulkan, Measure::relative, relative};
+        Bound any_jump{subject, Machine::vulkan, Measure::jump, jumps};
         any_absolute.refine(share(32), sharp_vulkan);
         any_relative.refine(share(32), sharp_vulkan);
         any_jump.refine(share(32), sharp_vulkan);
@@ -266,12 +276,11 @@ private:
         out_.vulkan.at = out_.ieee.at;
     }
 
-    void take(ErrorBound& bound, const Division& absolute, const Division& relative,
-              const Division& jump)
+    void take(ErrorBound& bound, const Bound& absolute, const Bound& relative, const Bound& jump)
     {
-        bound.absolute = std::max(bound.absolute, absolute.bound());
-        bound.relative = std::max(bound.relative, relative.bound());
-        bound.jump = std::max(bound.jump, jump.bound());
+        bound.absolute = std::max(bound.absolute, absolute.value());
+        bound.relative = std::max(bound.relative, relative.value());
+        bound.jump = std::max(bound.jump, jump.value());
         out_.boxes += absolute.boxes() + relative.boxes() + jump.boxes();
     }
 
@@ -282,7 +291,7 @@ private:
 
 std::string key_of(const std::vector<Subject>& subjects, std::size_t budget)
 {
-    std::string key = fmt::format("proof 2 {} {}\n", budget,
+    std::string key = fmt::format("proof 3 {} {}\n", budget,
                                   subjects.empty() ? 0 : static_cast<int>(subjects[0].precision));
     for (const Subject& subject : subjects) {
         key += dump(subject.steps) + dump(subject.operations);

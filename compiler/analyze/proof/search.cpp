@@ -4,6 +4,7 @@
 #include "analyze/random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lobe::analyze {
@@ -30,6 +31,50 @@ double anywhere(Random& random, const Interval& side, const Grid& grid)
         return side.low < 0 && (side.high <= 0 || random.coin()) ? -value : value;
     }
     default: return random.between(side.low, side.high);
+    }
+}
+
+using Coordinates = std::array<double, 3>;
+
+Coordinates coordinates(const Point& point, const std::array<std::size_t, 3>& vector)
+{
+    return {point[vector[0]], point[vector[1]], point[vector[2]]};
+}
+
+void place(const Subject& subject, const Box& box, const std::array<std::size_t, 3>& vector,
+           const Coordinates& at, double scale, Point& point)
+{
+    for (std::size_t k = 0; k < 3; ++k)
+        point[vector[k]] = on_grid(at[k] * scale, box[vector[k]], subject.precision);
+}
+
+/// Vectors as scenes have them: of length one where they fit, along each other, across each other.
+void relate_vectors(const Subject& subject, const Box& box, Random& random, Point& point)
+{
+    const auto length = [](const Coordinates& v) { return std::hypot(v[0], v[1], v[2]); };
+    for (const auto& vector : subject.vectors) {
+        const Coordinates v = coordinates(point, vector);
+        if (box[vector[0]].high <= 1 && length(v) > 0)
+            place(subject, box, vector, v, 1 / length(v), point);
+    }
+    const auto number = static_cast<std::uint32_t>(subject.vectors.size());
+    if (number < 2) return;
+    const auto& moved = subject.vectors[random.below(number)];
+    const auto& other = subject.vectors[random.below(number)];
+    const Coordinates to = coordinates(point, other);
+    if (&moved == &other || !(length(to) > 0)) return;
+    Coordinates v = coordinates(point, moved);
+    const double size = length(v);
+    const double along = (v[0] * to[0] + v[1] * to[1] + v[2] * to[2]) / (length(to) * length(to));
+    switch (random.below(3)) {
+    case 0:
+        place(subject, box, moved, to, (random.coin() ? size : -size) / length(to), point);
+        break;
+    case 1:
+        for (std::size_t k = 0; k < 3; ++k) v[k] -= along * to[k];
+        if (length(v) > 0) place(subject, box, moved, v, size / length(v), point);
+        break;
+    default: break;
     }
 }
 
@@ -103,6 +148,8 @@ std::vector<Point> points_in(const Subject& subject, const Box& box, std::size_t
             if (subject.whole[i]) value = std::floor(value + 0.5);
             points[p][i] = on_grid(value, box[i], subject.precision);
         }
+        if (!subject.vectors.empty() && random.below(4) == 0)
+            relate_vectors(subject, box, random, points[p]);
     }
     return points;
 }

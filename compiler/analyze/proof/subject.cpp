@@ -3,6 +3,8 @@
 #include "analyze/grid.h"
 #include "analyze/heads.h"
 #include "analyze/scalar.h"
+#include "evaluate/rounding_bounds.h"
+#include "evaluate/waist.h"
 
 #include <fmt/format.h>
 
@@ -39,6 +41,22 @@ std::vector<Number> run_points(const Subject& subject, const std::vector<Point>&
     return std::move(out[subject.output]);
 }
 
+/// By their names: `to_light.x`, `to_light.y`, `to_light.z`.
+std::vector<std::array<std::size_t, 3>> vectors_of(const std::vector<std::string>& names)
+{
+    std::vector<std::array<std::size_t, 3>> result;
+    for (std::size_t x = 0; x < names.size(); ++x) {
+        if (!names[x].ends_with(".x")) continue;
+        const std::string stem = names[x].substr(0, names[x].size() - 1);
+        const auto y = std::ranges::find(names, stem + 'y');
+        const auto z = std::ranges::find(names, stem + 'z');
+        if (y == names.end() || z == names.end()) continue;
+        result.push_back({x, static_cast<std::size_t>(y - names.begin()),
+                          static_cast<std::size_t>(z - names.begin())});
+    }
+    return result;
+}
+
 }  // namespace
 
 float on_grid(double value, const Interval& side, Precision precision)
@@ -64,6 +82,7 @@ std::vector<Subject> subjects(const ir::Module& module, const ir::Function& func
             subject.whole.push_back(scalars[scalar].whole);
             key += fmt::format("{} {};", subject.box.back().low, subject.box.back().high);
         }
+        subject.vectors = vectors_of(subject.names);
         if (std::ranges::find(keys, key) != keys.end()) continue;
         keys.push_back(std::move(key));
         subject.tape = tape;
@@ -72,6 +91,33 @@ std::vector<Subject> subjects(const ir::Module& module, const ir::Function& func
         subject.operations = rounding_tape(tape, output, evaluate::Detail::operations);
         subject.floor = precision == Precision::float32 ? 0x1p-32 : grid.least_normal;
         result.push_back(std::move(subject));
+    }
+    return result;
+}
+
+std::vector<Subject> from_waists(const Subject& subject, evaluate::Machine machine, bool jumps)
+{
+    evaluate::RoundingBounds whole{subject.steps, evaluate::rounding(machine, subject.precision),
+                                   subject.floor};
+    whole.error(subject.box);
+    std::vector<Subject> result;
+    for (const std::vector<std::uint32_t>& waist : evaluate::waists(subject.steps)) {
+        Subject from;
+        for (const std::uint32_t node : waist) {
+            const evaluate::Rounded& value = whole.values()[node];
+            from.given.push_back(value);
+            if (!jumps) from.given.back().jump = 0;
+            from.box.push_back(value.exact);
+        }
+        const bool bounded = std::ranges::all_of(from.given, [](const evaluate::Rounded& value) {
+            return std::isfinite(value.exact.low) && std::isfinite(value.exact.high) &&
+                   std::isfinite(value.absolute);
+        });
+        if (!bounded) continue;
+        from.precision = subject.precision;
+        from.floor = subject.floor;
+        from.steps = behind(subject.steps, waist);
+        result.push_back(std::move(from));
     }
     return result;
 }

@@ -2,10 +2,12 @@
 // the two ways to evaluate it at points.
 #pragma once
 
+#include "evaluate/rounding.h"
 #include "evaluate/rounding_tape.h"
 #include "evaluate/run.h"
 #include "ir/module.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -23,8 +25,12 @@ struct Subject {
     Box box;                            ///< declared, ends on the grid, for the inputs it reads
     std::vector<std::string> names;     ///< of these
     std::vector<bool> whole;            ///< holds integers only
+    std::vector<std::array<std::size_t, 3>> vectors;  ///< inputs that are x, y and z of one
     /// What its errors are relative to at least.
     double floor = 0;
+    /// Not empty: `steps` starts at a waist (waist.h), whose values are these over the whole box;
+    /// sides are of real numbers, and there are no points to evaluate.
+    std::vector<evaluate::Rounded> given;
 };
 
 /// A point: one value per input of the subject, on the grid of the precision.
@@ -44,6 +50,11 @@ Observed confirm_point(const Subject& subject, const Point& point);
 /// One per output that is another function than those before it.
 std::vector<Subject> subjects(const ir::Module& module, const ir::Function& function,
                               evaluate::Precision precision);
+
+/// The same subject from its waists on, those through which errors stay bounded, the narrowest
+/// first. What holds of such a one holds of the subject.
+/// `jumps`: what a turned decision may do to the waist's values goes on; else none was turned.
+std::vector<Subject> from_waists(const Subject& subject, evaluate::Machine machine, bool jumps);
 
 /// How many boxes of this subject a budget allows. It is told in boxes of a tape of 128 operations;
 /// of a longer tape there are fewer, so that no function takes more time than another. At least 1.

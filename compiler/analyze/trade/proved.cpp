@@ -32,13 +32,13 @@ std::string describe_part(const Subject& subject, const Box& part)
 void bound(const Subject& subject, std::size_t boxes, ProvedRounding& out)
 {
     Worst worst{subject, Measure::relative};
-    explore(subject, {&worst});
-    Division here{subject, Machine::kernels, Measure::relative, worst};
+    explore(subject, {&worst}, 0);
+    Bound here{subject, Machine::kernels, Measure::relative, worst};
     here.refine(boxes, sharp);
-    Division anywhere{subject, Machine::vulkan, Measure::relative, worst};
+    Bound anywhere{subject, Machine::vulkan, Measure::relative, worst};
     anywhere.refine(boxes, sharp_anywhere);
-    out.bound = std::max(out.bound, here.bound());
-    out.any_device = std::max(out.any_device, anywhere.bound());
+    out.bound = std::max(out.bound, here.value());
+    out.any_device = std::max(out.any_device, anywhere.value());
     if (const Point* const point = worst.point())
         out.observed = std::max(
             out.observed, error_of(subject, confirm_point(subject, *point), Measure::relative));
