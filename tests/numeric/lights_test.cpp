@@ -118,11 +118,11 @@ term of_element(l: float3 in [-100, 100], n: direction) -> float = dot(n, l) / l
 term softened(l0: float3 in [-100, 100], l1: float3 in [-100, 100], n: direction) -> float =
   line_irradiance(l0, l1) * max(dot(n, normalize(line_vector(l0, l1))), 0)
 term t_nearest(l0: float3 in [-100, 100], l1: float3 in [-100, 100], r: direction) -> float {
-  let along = along_tube((l0 + l1) / 2, normalize(l1 - l0), r)
+  let along = along_tube((l0 + l1) / 2, normalize(l1 - l0), r, 4096)
   1 / 2 + (along / length(l1 - l0) else 0)
 }
 term t_least_angle(l0: float3 in [-100, 100], l1: float3 in [-100, 100], r: direction) -> float {
-  let along = along_tube_least_angle((l0 + l1) / 2, normalize(l1 - l0), r)
+  let along = along_tube_least_angle((l0 + l1) / 2, normalize(l1 - l0), r, 4096)
   1 / 2 + (along / length(l1 - l0) else 0)
 }
 term of_least_angle(l0: float3 in [-100, 100], l1: float3 in [-100, 100], r: direction) -> direction =
