@@ -48,6 +48,10 @@ public:
     {
         return std::ranges::equal(a, b);
     }
+    friend bool operator==(const Components& a, const Components& b)
+    {
+        return std::ranges::equal(a, b);
+    }
 
 private:
     std::array<double, most> numbers_{};
