@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 
 namespace lobe::optimize {
 
@@ -167,7 +169,24 @@ bool is_arithmetic(Op op)
     }
 }
 
+/// The nearest decimal of six digits that is no greater (`direction` -1) or no less (1).
+double in_digits(double end, int direction)
+{
+    if (end == 0 || !std::isfinite(end)) return end;
+    // d.ddddde+x
+    const std::string text = fmt::format("{:.5e}", end);
+    if (const double nearest = std::stod(text); direction * (nearest - end) >= 0) return nearest;
+    const std::size_t e = text.find('e');
+    // One digit more, so that the step below a power of 10 is as fine as those before it.
+    const long long digits = 10 * std::llround(std::stod(text.substr(0, e)) * 1e5);
+    const bool is_finer = std::abs(digits) == 1'000'000 && direction * digits < 0;
+    return std::stod(fmt::format("{}e{}", digits + (is_finer ? direction : 10 * direction),
+                                 std::stoi(text.substr(e + 1)) - 6));
+}
+
 }  // namespace
+
+Range in_digits(const Range& range) { return {in_digits(range.low, -1), in_digits(range.high, 1)}; }
 
 Module fold_decimals(const Module& module)
 {

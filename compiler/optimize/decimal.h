@@ -12,4 +12,8 @@ namespace lobe::optimize {
 /// every component. Where the exact decimal has more than 17 digits everything stays.
 ir::Module fold_decimals(const ir::Module& module);
 
+/// The narrowest range around another whose ends have six digits or less: what a shader is
+/// promised, as people read it. 0.30000001192092896 is a float, and says nothing that 0.3 does not.
+ir::Range in_digits(const ir::Range& range);
+
 }  // namespace lobe::optimize

@@ -1,5 +1,6 @@
 // What a scene says about ranges, handed down from the roots to everything they call.
 #include "evaluate/run.h"
+#include "optimize/decimal.h"
 #include "optimize/rewrite.h"
 #include "optimize/specialize.h"
 
@@ -19,17 +20,12 @@ Range intersection(const Range& declared, const Range& wanted)
     return both.low <= both.high ? both : declared;
 }
 
-void limit_inputs(Module& module, const Limits& limits)
+void limit_inputs(Module& module, const KnownRange& known)
 {
-    for (Parameter& parameter : module.parameters)
-        if (const auto found = limits.find(parameter.name); found != limits.end())
-            parameter.range = intersection(parameter.range, found->second);
     for (Function& function : module.functions)
-        for (Input& input : function.inputs) {
-            if (input.origin == Origin::argument || input.origin == Origin::geometry) continue;
-            if (const auto found = limits.find(input.name); found != limits.end())
-                input.range = intersection(input.range, found->second);
-        }
+        for (Input& input : function.inputs)
+            if (const Range* const range = known(function, input))
+                input.range = intersection(input.range, *range);
 }
 
 /// The hull of what was passed to each argument, if anything was.
@@ -56,8 +52,21 @@ void observe(const Module& module, const Function& caller, Passed& passed)
 
 Module narrow(const Module& module, const Limits& limits)
 {
+    Module result = narrow_where(module, [&](const Function&, const Input& input) -> const Range* {
+        if (input.origin == Origin::argument || input.origin == Origin::geometry) return nullptr;
+        const auto found = limits.find(input.name);
+        return found == limits.end() ? nullptr : &found->second;
+    });
+    for (Parameter& parameter : result.parameters)
+        if (const auto found = limits.find(parameter.name); found != limits.end())
+            parameter.range = intersection(parameter.range, found->second);
+    return result;
+}
+
+Module narrow_where(const Module& module, const KnownRange& known)
+{
     Module result = module;
-    limit_inputs(result, limits);
+    limit_inputs(result, known);
 
     const std::vector<bool> is_root = root_flags(result);
     const std::vector<FunctionId> reachable = result.reachable(all_roots(result));
@@ -70,7 +79,7 @@ Module narrow(const Module& module, const Limits& limits)
             Input& input = function.inputs[i];
             const auto& hull = passed[id->index][i];
             if (input.origin == Origin::argument && hull)
-                input.range = intersection(input.range, *hull);
+                input.range = intersection(input.range, in_digits(*hull));
         }
         observe(result, function, passed);
     }

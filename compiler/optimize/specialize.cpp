@@ -80,20 +80,17 @@ AllTraffic observe_calls(const Module& module)
     return traffic;
 }
 
-Module fix_inputs(const Module& module, const Settings& settings)
+Module fix_inputs(const Module& module, const KnownValue& known)
 {
     return rewrite(module, [&](Rebuild& rebuild) -> Step {
         return [&](ExprId id) {
             const Function& old = rebuild.old();
             if (old.graph[id].op != Op::input) return rebuild.copy(id);
             const Input& input = old.inputs[old.graph[id].aux];
-            if (input.origin != Origin::parameter && input.origin != Origin::surface)
+            const std::vector<double>* const value = known(old, input);
+            if (value == nullptr || static_cast<int>(value->size()) != components(input.type))
                 return rebuild.copy(id);
-            const auto found = settings.find(input.name);
-            if (found == settings.end() ||
-                static_cast<int>(found->second.size()) != components(input.type))
-                return rebuild.copy(id);
-            return constant(rebuild.graph, input.type, found->second, old.graph.span(id));
+            return constant(rebuild.graph, input.type, *value, old.graph.span(id));
         };
     });
 }
@@ -132,22 +129,36 @@ Module push_constants(const Module& module)
     });
 }
 
-}  // namespace
-
-Module specialize(const Module& module, const Settings& settings)
+/// A constant goes one call deeper per step, and steps past the deepest change nothing.
+template <class Folded>
+Module pushed_down(Module current, const Folded& folded)
 {
-    // A constant goes one call deeper per step, and steps past the deepest change nothing.
-    const auto folded = [](const Module& with_constants) {
-        return simplify(fold_decimals(with_constants));
-    };
-    Module current = settings.empty() ? simplify(module) : folded(fix_inputs(module, settings));
-    for (std::size_t depth = 0; depth < module.functions.size(); ++depth) {
-        const Module pushed = push_constants(current);
-        Module next = settings.empty() ? simplify(pushed) : folded(pushed);
+    for (std::size_t depth = 0; depth < current.functions.size(); ++depth) {
+        Module next = folded(push_constants(current));
         if (same_graphs(current, next)) return next;
         current = std::move(next);
     }
     return current;
+}
+
+Module folded_on_paper(const Module& module) { return simplify(fold_decimals(module)); }
+
+}  // namespace
+
+Module specialize_where(const Module& module, const KnownValue& known)
+{
+    return pushed_down(folded_on_paper(fix_inputs(module, known)), folded_on_paper);
+}
+
+Module specialize(const Module& module, const Settings& settings)
+{
+    if (settings.empty())
+        return pushed_down(simplify(module), [](const Module& each) { return simplify(each); });
+    return specialize_where(module, [&](const Function&, const Input& input) {
+        const bool is_known = input.origin == Origin::parameter || input.origin == Origin::surface;
+        const auto found = is_known ? settings.find(input.name) : settings.end();
+        return found == settings.end() ? nullptr : &found->second;
+    });
 }
 
 Settings defaults(const Module& module)

@@ -4,6 +4,7 @@
 
 #include "ir/module.h"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ using Settings = std::map<std::string, std::vector<double>>;
 /// the settings decide is a constant; `truth` (truth.h) reads it.
 ir::Module specialize(const ir::Module& module, const Settings& settings);
 
+/// The same for what one function knows of its inputs, of any origin: the value, or null.
+using KnownValue =
+    std::function<const std::vector<double>*(const ir::Function& function, const ir::Input& input)>;
+ir::Module specialize_where(const ir::Module& module, const KnownValue& known);
+
 /// The module where these inputs stay in narrower ranges: parameters, and fields of surfaces and
 /// emitters, by name.
 /// Functions that are no roots are then called with less than they were declared for; their
@@ -34,6 +40,11 @@ ir::Module specialize(const ir::Module& module, const Settings& settings);
 /// one stays.
 using Limits = std::map<std::string, ir::Range>;
 ir::Module narrow(const ir::Module& module, const Limits& limits);
+
+/// The same for what one function knows of its inputs: the range, or null.
+using KnownRange =
+    std::function<const ir::Range*(const ir::Function& function, const ir::Input& input)>;
+ir::Module narrow_where(const ir::Module& module, const KnownRange& known);
 
 /// Every parameter at its default.
 Settings defaults(const ir::Module& module);

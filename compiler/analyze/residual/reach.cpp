@@ -1,12 +1,11 @@
 #include "analyze/residual/reach.h"
 
-#include <fmt/format.h>
+#include "optimize/decimal.h"
 
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <string>
 
 namespace lobe::analyze {
 namespace {
@@ -44,27 +43,15 @@ Component component_of(const ir::Range& factor, const ir::Range& texel, double o
     return out;
 }
 
-/// The nearest decimal of six digits that is no greater (`direction` -1) or no less (1).
-double in_digits(double end, int direction)
-{
-    if (end == 0 || !std::isfinite(end)) return end;
-    // d.ddddde+x
-    const std::string text = fmt::format("{:.5e}", end);
-    if (const double nearest = std::stod(text); direction * (nearest - end) >= 0) return nearest;
-    const std::size_t e = text.find('e');
-    // One digit more, so that the step below a power of 10 is as fine as those before it.
-    const long long digits = 10 * std::llround(std::stod(text.substr(0, e)) * 1e5);
-    const bool is_finer = std::abs(digits) == 1'000'000 && direction * digits < 0;
-    return std::stod(fmt::format("{}e{}", digits + (is_finer ? direction : 10 * direction),
-                                 std::stoi(text.substr(e + 1)) - 6));
-}
-
 }  // namespace
 
-ir::Range in_digits(const ir::Range& range)
+ir::Range rounded_by_hosts(const ir::Range& range)
 {
-    return {in_digits(range.low, -1), in_digits(range.high, 1)};
+    return {is_float(range.low) ? range.low : outward(range.low, -infinity),
+            is_float(range.high) ? range.high : outward(range.high, infinity)};
 }
+
+ir::Range in_digits(const ir::Range& range) { return optimize::in_digits(range); }
 
 ir::Range hull(const ir::Range& a, const ir::Range& b)
 {

@@ -25,8 +25,10 @@ ir::Range hull(const ir::Range& a, const ir::Range& b);
 /// Everything that a float product of two can be; exact where both are constants.
 ir::Range product_in_floats(const ir::Range& a, const ir::Range& b);
 
-/// The narrowest range around another whose ends have six digits or less: what people are told, and
-/// what a shader is promised. 0.30000001192092896 is a float, and says nothing that 0.3 does not.
+/// Where an end is no float, moved outward by what a few operations of a host in float are off.
+ir::Range rounded_by_hosts(const ir::Range& range);
+
+/// As optimize/decimal.h has it.
 ir::Range in_digits(const ir::Range& range);
 
 }  // namespace lobe::analyze
