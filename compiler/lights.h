@@ -21,7 +21,9 @@
 
 #include "base/source.h"
 #include "ir/module.h"
+#include "optimize/residual.h"
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,5 +38,12 @@ const std::vector<std::string>& light_names();
 /// added to `sources`.
 ir::Module with_lights(const ir::Module& checked, const std::vector<std::string>& lights,
                        Sources& sources, std::string_view model = {});
+
+/// The same for lights of which more is known, by their names: fields of the emitter that are
+/// constants are no inputs, and ranges of others are narrower. A light that nothing is known of has
+/// an empty entry.
+ir::Module with_lights(const ir::Module& checked,
+                       const std::map<std::string, optimize::Called>& lights, Sources& sources,
+                       std::string_view model = {});
 
 }  // namespace lobe

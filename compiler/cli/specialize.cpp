@@ -139,6 +139,7 @@ struct Specialize {
         out.module = file.module().name;
         out.command = command();
         out.epsilon = epsilon;
+        out.has_lights = !no_lights;
         out.family = family.empty() ? default_family : *analyze::find_family(family);
         out.facts = std::move(facts);
         std::vector<analyze::DroppedEffects> dropped;
@@ -158,14 +159,36 @@ struct Specialize {
         phases.done("shaders and costs");
         if (no_certificate) return out;
         progress.show("certificates");
-        std::vector<analyze::CertificateSubject> subjects;
-        for (const analyze::Variant& variant : out.variants.chosen)
-            subjects.push_back(
-                {&variant.called, &variant.residual, analyze::dropped_in(variant, dropped)});
-        out.certificates = analyze::certify(file.module(), file.program.sources, file.model,
-                                            subjects, checks, store);
+        out.certificates = certified(file, out, dropped, checks, store);
         phases.done("certificates");
         return out;
+    }
+
+    /// Of the shaders, and of what they are under the lights of the scene.
+    std::vector<analyze::Certificate> certified(const ModelFile& file,
+                                                const report::Specialization& of,
+                                                const std::vector<analyze::DroppedEffects>& dropped,
+                                                const analyze::CertificateOptions& checks,
+                                                const analyze::Store& store) const
+    {
+        Sources sources = file.program.sources;
+        ir::Module general = file.module();
+        std::vector<optimize::Residual> residuals;
+        for (const analyze::Variant& variant : of.variants.chosen)
+            residuals.push_back(variant.residual);
+        if (!no_lights) {
+            general = with_lights(general, of.facts.light_names, sources, file.model);
+            for (optimize::Residual& residual : residuals)
+                residual.module =
+                    with_lights(residual.module, of.facts.emitters, sources, file.model);
+        }
+        std::vector<analyze::CertificateSubject> subjects;
+        for (std::size_t i = 0; i < residuals.size(); ++i) {
+            const analyze::Variant& variant = of.variants.chosen[i];
+            subjects.push_back({&variant.called, &residuals[i],
+                                analyze::dropped_in(variant, dropped), &of.facts.emitters});
+        }
+        return analyze::certify(general, sources, file.model, subjects, checks, store);
     }
 
     /// The files of every shader, and of what it makes of the lights that the scene has.
@@ -174,12 +197,11 @@ struct Specialize {
     {
         std::vector<OutputFile> files;
         Sources sources = file.program.sources;
-        const auto lights = no_lights ? std::vector<std::string>{} : result.facts.light_names;
         for (std::size_t i = 0; i < result.variants.chosen.size(); ++i) {
             const analyze::Variant& variant = result.variants.chosen[i];
             ir::Module module = analyze::renamed(variant.residual.module, variant.name);
             module.remarks = report::remarks(result, i);
-            if (!lights.empty()) module = with_lights(module, lights, sources);
+            if (!no_lights) module = with_lights(module, result.facts.emitters, sources);
             for (emit::Artifact& artifact :
                  back(middle(module), sources, choose_targets(target_names)))
                 files.push_back({(std::filesystem::path{output} / artifact.path).generic_string(),

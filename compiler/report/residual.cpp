@@ -120,6 +120,9 @@ std::vector<std::string> remarks(const Specialization& of, std::size_t index)
              std::ranges::count(variant.residual.absent, name) == 0))
             fixed.push_back(fmt::format("{} = {}", name, listed(value)));
     if (!fixed.empty()) out.push_back(fmt::format("Constants: {}.", fmt::join(fixed, ", ")));
+    if (of.has_lights && !of.facts.emitters.empty())
+        out.push_back(
+            fmt::format("Lights, lengths in centimeters: {}.", emitters_in_words(of.facts)));
     if (index < of.certificates.size())
         for (const analyze::Dropped& dropped : of.certificates[index].dropped)
             out.push_back(fmt::format(

@@ -22,6 +22,7 @@ struct Specialization {
     analyze::Variants variants;
     analyze::Family family{};
     double epsilon = 0;
+    bool has_lights = true;  ///< shaders come with what they are under the scene's lights
     std::vector<analyze::Certificate> certificates;  ///< one per chosen variant, or none
 
     bool ok() const;

@@ -180,6 +180,22 @@ Table input_table(const SceneFacts& facts)
     return table;
 }
 
+std::string emitters_in_words(const SceneFacts& facts)
+{
+    std::string out;
+    for (const auto& [light, emitter] : facts.emitters) {
+        std::string fields;
+        for (const auto& [field, range] : emitter.ranges)
+            fields += fmt::format("{}{} {}", fields.empty() ? "" : ", ", field,
+                                  range.low == range.high
+                                      ? fmt::format("{}", range.low)
+                                      : fmt::format("{} .. {}", range.low, range.high));
+        out += fmt::format("{}{}{}", out.empty() ? "" : "; ", light,
+                           fields.empty() ? "" : " (" + fields + ")");
+    }
+    return out;
+}
+
 std::string surroundings(const SceneFacts& facts)
 {
     std::string lights;
@@ -187,6 +203,8 @@ std::string surroundings(const SceneFacts& facts)
         lights += fmt::format("{}{} {}{}", lights.empty() ? "" : ", ", light.count,
                               name(light.kind), light.ranged ? " with a range" : "");
     std::string out = fmt::format("lights        {}\n", lights.empty() ? "none" : lights);
+    if (!facts.emitters.empty())
+        out += fmt::format("functions     {}, in centimeters\n", emitters_in_words(facts));
     out += fmt::format("environment   {}\n", facts.has_environment ? "image-based" : "none");
     out += fmt::format("tangents      {}\n", facts.has_tangents ? "some meshes have them" : "none");
     out += fmt::format("double-sided  {}\n", facts.double_sided ? "some materials" : "none");
@@ -234,11 +252,17 @@ ordered_json to_json(const SceneFacts& facts)
     for (const analyze::LightCount& light : facts.lights)
         lights.push_back(
             {{"kind", name(light.kind)}, {"count", light.count}, {"ranged", light.ranged}});
+    ordered_json emitters = ordered_json::object();
+    for (const auto& [light, emitter] : facts.emitters) {
+        ordered_json& fields = emitters[light] = ordered_json::object();
+        for (const auto& [field, range] : emitter.ranges)
+            fields[field] = {json_number(range.low), json_number(range.high)};
+    }
     return {{"model", facts.model},
             {"effects", std::move(effects)},
             {"materials", std::move(materials)},
             {"lights", std::move(lights)},
-            {"light_functions", facts.light_names},
+            {"light_functions", std::move(emitters)},
             {"environment", facts.has_environment},
             {"tangents", facts.has_tangents},
             {"double_sided", facts.double_sided},

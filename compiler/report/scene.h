@@ -30,6 +30,9 @@ Table layer_table(const analyze::LayeredMaterials& layered);
 std::string to_text(const analyze::LayeredMaterials& layered, const Look& look);
 nlohmann::ordered_json to_json(const analyze::LayeredMaterials& layered);
 
+/// What the lights of the scene give to light functions, in words: `sphere (radius 30 .. 40)`.
+std::string emitters_in_words(const analyze::SceneFacts& facts);
+
 /// `directional`
 std::string_view name(scene::Light::Kind kind);
 

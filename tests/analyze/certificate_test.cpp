@@ -2,6 +2,8 @@
 // it must be able to say that it is not.
 #include "analyze/checked.h"
 #include "analyze/residual/certificate.h"
+#include "compile.h"
+#include "lights.h"
 
 #include <catch2/catch.hpp>
 
@@ -203,4 +205,88 @@ TEST_CASE("ranges count with their worst end")
     CHECK(some[0].bound <= 0.02 / 0.98 * (1 + 1e-9));
     CHECK(some[0].observed <= some[0].bound);
     CHECK(some[0].observed > 0.01);
+}
+
+namespace {
+
+/// Callisto's base under these lights, against the general model under them.
+Certificate lit(const std::map<std::string, optimize::Called>& told,
+                const std::map<std::string, optimize::Called>& scene)
+{
+    Sources sources = callisto().sources;
+    std::vector<std::string> names;
+    for (const auto& [name, emitter] : told) names.push_back(name);
+    const ir::Module general = with_lights(callisto().module, names, sources, "callisto");
+    const auto what = called(callisto().module, {}, {}, {});
+    optimize::Residual residual = optimize::residual(callisto().module, what, "callisto");
+    residual.module = with_lights(residual.module, told, sources, "callisto");
+    CertificateOptions options = few_points();
+    options.points = 1024;
+    return certify(general, sources, "callisto", {{&what, &residual, {}, &scene}}, options, {})
+        .front();
+}
+
+optimize::Called emitter(const std::string& field, ir::Range range)
+{
+    optimize::Called out;
+    out.ranges[field] = range;
+    if (range.low == range.high) out.constants[field] = {range.low};
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("lights of a scene are certified with what it says of them")
+{
+    const std::map<std::string, optimize::Called> scene{
+        {"directional", {}},
+        {"punctual", emitter("inverse_range", {0, 0})},
+        {"sphere", emitter("radius", {20, 40})}};
+    const Certificate certificate = lit(scene, scene);
+    REQUIRE(certificate.outputs.size() == 5);
+    CHECK(certificate.outputs[2].output == "under directional");
+    CHECK(certificate.outputs[2].same_graph);
+    CHECK(certificate.outputs[3].output == "under punctual");
+    CHECK(certificate.outputs[4].output == "under sphere");
+    for (const Equality& output : certificate.outputs) {
+        CAPTURE(output.output, output.worst);
+        CHECK(output.ok());
+        CHECK_FALSE(output.device.empty());
+    }
+}
+
+TEST_CASE("a light without the window that the scene's lights need is found out")
+{
+    const Certificate certificate = lit({{"punctual", emitter("inverse_range", {0, 0})}},
+                                        {{"punctual", emitter("inverse_range", {0.001, 0.1})}});
+    REQUIRE(certificate.outputs.size() == 3);
+    CHECK(certificate.outputs[0].ok());
+    CHECK(certificate.outputs[1].ok());
+    CHECK(certificate.outputs[2].outside > 0);
+    CHECK(certificate.outputs[2].device_outside > 0);
+    CHECK_FALSE(certificate.ok());
+}
+
+TEST_CASE("only what a scene's lights need is in their functions")
+{
+    Sources sources = callisto().sources;
+    const auto inputs_of = [&](const std::map<std::string, optimize::Called>& lights,
+                               const std::string& function) {
+        const ir::Module module =
+            middle(with_lights(callisto().module, lights, sources, "callisto"));
+        std::string names;
+        for (const ir::Input& input : module[*module.find(function)].inputs)
+            if (input.origin == ir::Origin::emitter) names += input.name + " ";
+        return names;
+    };
+    const std::string point = "shade_callisto_punctual";
+    CHECK(inputs_of({{"punctual", {}}}, point) == "to_light inverse_range ");
+    CHECK(inputs_of({{"punctual", emitter("inverse_range", {0, 0})}}, point) == "to_light ");
+    // What one light's function knows, another's does not.
+    const std::map<std::string, optimize::Called> both{
+        {"punctual", emitter("inverse_range", {0, 0})},
+        {"spot", emitter("inverse_range", {0.001, 0.1})}};
+    CHECK(inputs_of(both, point) == "to_light ");
+    CHECK(inputs_of(both, "shade_callisto_spot") ==
+          "to_light axis inverse_range cos_inner cos_outer ");
 }

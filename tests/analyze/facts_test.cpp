@@ -548,6 +548,46 @@ TEST_CASE("a scene without a lit material is refused")
     CHECK(mixed.facts->materials[0].coverage == 1);
 }
 
+TEST_CASE("light functions know what the lights of their name give")
+{
+    using Kind = scene::Light::Kind;
+    const auto light = [](Kind kind, double radius, std::optional<double> range) {
+        scene::Light out;
+        out.kind = kind;
+        out.radius = radius;
+        out.range = range;
+        out.length = kind == Kind::tube ? 3 : 0;
+        return out;
+    };
+    scene::Scene scene = scene_of({plain("a")});
+    scene.lights = {light(Kind::directional, 0, {}), light(Kind::point, 0, {}),
+                    light(Kind::point, 0, {}),       light(Kind::sphere, 0.25, 4),
+                    light(Kind::sphere, 0.5, {}),    light(Kind::tube, 0, 2)};
+    scene.lights.push_back(light(Kind::spot, 0, 8));
+    scene.lights.back().inner_cone = 0;
+    const SceneFacts facts = facts_of(scene);
+    CHECK(facts.light_names ==
+          std::vector<std::string>{"directional", "punctual", "sphere", "spot", "tube"});
+    CHECK(facts.emitters.at("directional").ranges.empty());
+    const optimize::Called& point = facts.emitters.at("punctual");
+    CHECK(point.constants == optimize::Settings{{"inverse_range", {0}}});
+    const optimize::Called& sphere = facts.emitters.at("sphere");
+    CHECK(sphere.constants.empty());
+    CHECK(sphere.ranges.at("radius") == ir::Range{25, 50});
+    CHECK(sphere.ranges.at("inverse_range").low == 0);
+    CHECK(sphere.ranges.at("inverse_range").high >= 1.0 / 400);
+    CHECK(sphere.ranges.at("inverse_range").high < 1.0 / 399);
+    CHECK(facts.emitters.at("tube").ranges.at("half_length") == ir::Range{150, 150});
+    CHECK_FALSE(facts.emitters.at("tube").ranges.contains("radius"));
+    const optimize::Called& spot = facts.emitters.at("spot");
+    CHECK(spot.constants == optimize::Settings{{"cos_inner", {1}}});
+    // A host computes the cosine in float.
+    const ir::Range outer = spot.ranges.at("cos_outer");
+    const auto in_float = static_cast<double>(std::cos(static_cast<float>(0.7853981633974483)));
+    CHECK(outer.low <= in_float);
+    CHECK(outer.high >= in_float);
+}
+
 TEST_CASE("lights are counted by kind")
 {
     scene::Scene scene = scene_of({plain("a")});

@@ -167,7 +167,8 @@ TEST_CASE("a scene of the base alone gives the base, certified")
     CHECK_THAT(shader, !Contains("parameters"));
     const json certificate = json::parse(scratch.read("c.json"));
     CHECK(certificate["ok"] == true);
-    REQUIRE(certificate["shaders"][0]["outputs"].size() == 2);
+    REQUIRE(certificate["shaders"][0]["outputs"].size() == 3);
+    CHECK(certificate["shaders"][0]["outputs"][2]["output"] == "under directional");
     for (const json& output : certificate["shaders"][0]["outputs"]) {
         CHECK(output["same_graph"] == true);
         CHECK(output["outside"] == 0);
@@ -254,8 +255,9 @@ TEST_CASE("an epsilon drops what it may, and the banner has the bound")
 TEST_CASE("what an epsilon does not let go is listed with its bound")
 {
     const Scratch scratch;
-    scratch.write("some.gltf", document(json::array({material(
-                                   {{"retroreflection", 3}, {"dual_specular_opacity", 0.001}})})));
+    json some = material({{"retroreflection", 3}, {"dual_specular_opacity", 0.001}});
+    some["pbrMetallicRoughness"]["roughnessFactor"] = 0.4;
+    scratch.write("some.gltf", document(json::array({some})));
     const Outcome outcome =
         specialize(scratch, "some.gltf --epsilon 2% --points 64 --no-execution -t glsl450 -o out "
                             "--certificate c.json --html page.html");
@@ -325,6 +327,9 @@ TEST_CASE("the lights of a scene come with its shaders, and no others")
     const std::string lights = scratch.read("out/callisto_base/glsl450/callisto_base_lights.glsl");
     CHECK_THAT(lights, Contains("shade_callisto_base_punctual") &&
                            Contains("shade_callisto_base_sphere") && Contains("spot"));
+    // The spheres of the scene have no range, and so no window.
+    CHECK_THAT(lights, !Contains("float window("));
+    CHECK_THAT(lights, Contains("// Lights, lengths in centimeters: capsule (half_length"));
     REQUIRE(
         specialize(scratch, scenes + "base_only.gltf --no-certificate -t glsl450 -o one").status ==
         0);

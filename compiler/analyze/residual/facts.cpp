@@ -196,9 +196,8 @@ private:
                 }
             if (count.count > 0) facts_.lights.push_back(count);
         }
-        std::set<std::string> names;
-        for (const scene::Light& light : scene_.lights) names.insert(light_name(light));
-        facts_.light_names.assign(names.begin(), names.end());
+        facts_.emitters = emitter_facts(scene_.lights);
+        for (const auto& [name, emitter] : facts_.emitters) facts_.light_names.push_back(name);
         facts_.has_environment = scene_.environment.has_value();
         facts_.has_tangents = std::ranges::any_of(scene_.meshes, &scene::Mesh::has_tangents);
         facts_.double_sided = std::ranges::any_of(
@@ -277,19 +276,6 @@ optimize::Called SceneFacts::called(const std::vector<std::size_t>& of, SurfaceU
         if (std::ranges::none_of(chosen, [&](std::size_t m) { return materials[m].calls[i]; }))
             out.off.insert(effects[i].name);
     return out;
-}
-
-std::string light_name(const scene::Light& light)
-{
-    using Kind = scene::Light::Kind;
-    switch (light.kind) {
-    case Kind::directional: return "directional";
-    case Kind::point: return "punctual";
-    case Kind::spot: return "spot";
-    case Kind::sphere: return "sphere";
-    case Kind::tube: return light.radius > 0 ? "capsule" : "tube";
-    }
-    return {};
 }
 
 FoundFacts find_facts(const scene::Scene& scene, const ir::Module& module, const std::string& model)

@@ -6,6 +6,7 @@
 // default. A material with layers is what blending their parameters can make of it.
 #pragma once
 
+#include "analyze/residual/emitters.h"
 #include "ir/module.h"
 #include "optimize/residual.h"
 #include "scene/gltf.h"
@@ -52,9 +53,6 @@ struct LightCount {
     bool ranged = false;  ///< one of them has a range: the window is needed
 };
 
-/// What models/lights.lobe calls a light that shines as this one does.
-std::string light_name(const scene::Light& light);
-
 /// Which constants of the surface `SceneFacts::called` fixes. A parameter is fixed in both.
 enum class SurfaceUse : std::uint8_t {
     /// 0 and 1, which take code away: no metal, all metal. Other constants stay inputs, so that a
@@ -70,6 +68,9 @@ struct SceneFacts {
     std::vector<EffectFact> effects;       ///< in the module's order
     std::vector<LightCount> lights;        ///< kinds that the scene has, in the enum's order
     std::vector<std::string> light_names;  ///< that they need of models/lights.lobe, sorted
+    /// By these names, what all lights of one give to the fields of an emitter: ranges, and
+    /// constants where it is 0 or 1, which takes code away. Lengths are in centimeters.
+    std::map<std::string, optimize::Called> emitters;
     bool has_environment = false;
     bool has_tangents = false;
     bool double_sided = false;
