@@ -6,6 +6,7 @@
 #include "analyze/residual/surface.h"
 #include "analyze/tasks.h"
 #include "evaluate/run.h"
+#include "scene/color.h"
 
 #include <fmt/format.h>
 
@@ -327,9 +328,8 @@ RadianceError worst_of(const Stack& stack, const LayerOptions& options)
 
 bool LayeredMaterial::one_shading_is_enough() const
 {
-    const double white = 1;
-    const double half_a_step_darker = std::pow((white - 0.5 / 255 + 0.055) / 1.055, 2.4);
-    return error.worst < white - half_a_step_darker;
+    constexpr float half_a_step_below_white = 1 - 0.5F / 255;
+    return error.worst < 1 - static_cast<double>(scene::linear_of_srgb(half_a_step_below_white));
 }
 
 LayeredMaterials layered_materials(const scene::Scene& scene, const ir::Module& module,
