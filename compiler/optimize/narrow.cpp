@@ -40,10 +40,14 @@ void observe(const Module& module, const Function& caller, Passed& passed)
         if (graph[id].op != Op::call || uses[id] == 0) continue;
         const auto operands = graph.operands(id);
         for (std::size_t i = 0; i < operands.size(); ++i) {
-            const Interval& range = ranges[operands[i]];
+            // What is handed on has the range that it came with; what is computed, one of floats.
+            const Expr& operand = graph[operands[i]];
+            const Interval& computed = ranges[operands[i]];
+            const Range range = operand.op == Op::input ? caller.inputs[operand.aux].range
+                                                        : in_digits({computed.low, computed.high});
             auto& hull = passed[graph[id].aux][i];
             hull = hull ? Range{std::min(hull->low, range.low), std::max(hull->high, range.high)}
-                        : Range{range.low, range.high};
+                        : range;
         }
     }
 }
@@ -79,7 +83,7 @@ Module narrow_where(const Module& module, const KnownRange& known)
             Input& input = function.inputs[i];
             const auto& hull = passed[id->index][i];
             if (input.origin == Origin::argument && hull)
-                input.range = intersection(input.range, in_digits(*hull));
+                input.range = intersection(input.range, *hull);
         }
         observe(result, function, passed);
     }

@@ -7,9 +7,13 @@
 #include "optimize/rewrite.h"
 #include "optimize/truth.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <set>
+#include <string>
 
 namespace lobe::optimize {
 
@@ -229,6 +233,44 @@ Module without_unused(const Module& module)
     return keep_functions(module, kept);
 }
 
+/// The words of a formula, in its order.
+std::vector<std::string> words_of(const std::string& formula)
+{
+    std::vector<std::string> words;
+    bool inside = false;
+    for (const char c : formula) {
+        const bool letter =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
+        if (letter && !inside) words.emplace_back();
+        if (letter) words.back() += c;
+        inside = letter;
+    }
+    return words;
+}
+
+/// Formulas are bodies as they were written. The parameters that they name and that are no inputs
+/// any more have a value, which is said behind them.
+void tell_values(Module& module, const Settings& settings, const std::vector<bool>& left)
+{
+    for (Function& function : module.functions) {
+        std::string values;
+        std::set<std::string> told;
+        for (const std::string& word : words_of(function.formula)) {
+            const auto parameter = std::ranges::find(module.parameters, word, &Parameter::name);
+            const auto value = settings.find(word);
+            if (parameter == module.parameters.end() || value == settings.end() ||
+                left[static_cast<std::size_t>(parameter - module.parameters.begin())] ||
+                !told.insert(word).second)
+                continue;
+            const bool is_one = value->second.size() == 1;
+            values +=
+                fmt::format("{} {} = {}{}{}", values.empty() ? ", where" : ",", word,
+                            is_one ? "" : "(", fmt::join(value->second, ", "), is_one ? "" : ")");
+        }
+        function.formula += values;
+    }
+}
+
 /// What is stored comes back in steps of its codes, so its range stays the declared one.
 Limits limits_of(const Module& module, const Called& called)
 {
@@ -287,6 +329,7 @@ Residual residual(const Module& module, const Called& called, std::string_view m
     }
 
     current = without_unused(without_forwarding(current));
+    tell_values(current, effects.settings(), left);
     current.gbuffers = std::move(gbuffers);
     for (Packing& packing : current.packings)
         build_functions(current, packing, *current.find_gbuffer(packing.gbuffer));

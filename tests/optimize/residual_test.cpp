@@ -9,7 +9,10 @@
 #include "optimize/rewrite.h"
 #include "values.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
 
 using namespace lobe;
 using namespace lobe::ir;
@@ -275,4 +278,44 @@ TEST_CASE("an effect that is left out on purpose has its defaults, whatever the 
     REQUIRE(verify(left.module).value_or("") == "");
     CHECK(has(left.off, "Specular Fresnel"));
     CHECK(left.settings.at("specular_fresnel_falloff") == std::vector<double>{0.5});
+}
+
+TEST_CASE("a formula says what the parameters are that it names and that are gone")
+{
+    const Residual left = residual(
+        callisto(),
+        [] {
+            Called called = only(callisto(), {{"smooth_terminator_length", {0.25, 0.5}}},
+                                 {"Smooth Terminator"});
+            called.constants["smooth_terminator"] = {0.6};
+            return called;
+        }(),
+        "callisto");
+    const std::string formula = left.module[*left.module.find("c2")].formula;
+    CHECK(
+        formula.ends_with("), where smooth_terminator = 0.6, smooth_terminator_tint = (1, 1, 1)"));
+    // What is still an input says its range elsewhere, and so do functions without parameters.
+    CHECK(left.module[*left.module.find("alpha_s")].formula ==
+          callisto()[*callisto().find("alpha_s")].formula);
+}
+
+TEST_CASE("ranges that are handed on stay, and computed ones have few digits")
+{
+    Called called;
+    called.ranges = {{"roughness", {0.3, 0.7}}, {"f0", {0.04, 0.04}}};
+    const Module narrowed = residual(callisto(), called, "callisto").module;
+    const auto range = [&](const char* function, const char* input) {
+        for (const Input& each : narrowed[*narrowed.find(function)].inputs)
+            if (each.name == input) return each.range;
+        FAIL("no such input");
+        return Range{};
+    };
+    CHECK(range("F_Callisto", "f0") == Range{0.04, 0.04});
+    const Range alpha = range("proxima_cos", "alpha");
+    CHECK(alpha.low <= 0.09);
+    CHECK(alpha.high >= 0.49);
+    // A float's rounding each of the factor and the product, and one of the sixth digit.
+    CHECK(alpha.low >= 0.09 * (1 - 4 * 0x1p-23 - 1e-5));
+    CHECK(alpha.high <= 0.49 * (1 + 4 * 0x1p-23 + 1e-5));
+    CHECK(std::stod(fmt::format("{:.6g}", alpha.low)) == alpha.low);
 }
