@@ -37,16 +37,21 @@ Read read_file(const std::string& path, std::size_t limit)
     return {std::move(text), {}};
 }
 
-check::Loader folder_loader()
+check::Loader folder_loader(std::vector<std::string> folders)
 {
-    return [](Sources& sources, std::string_view module,
-              std::string_view importing) -> std::optional<std::uint32_t> {
-        const fs::path path =
-            fs::path{importing}.parent_path() / fs::path{std::string{module} + ".lobe"};
-        auto read = read_file(path.string(), largest_source);
-        if (!read.text) return std::nullopt;
-        return sources.add(path.generic_string(), std::move(*read.text));
-    };
+    return
+        [folders = std::move(folders)](Sources& sources, std::string_view module,
+                                       std::string_view importing) -> std::optional<std::uint32_t> {
+            const fs::path name{std::string{module} + ".lobe"};
+            std::vector<fs::path> places{fs::path{importing}.parent_path()};
+            places.insert(places.end(), folders.begin(), folders.end());
+            for (const fs::path& place : places) {
+                auto read = read_file((place / name).string(), largest_source);
+                if (read.text)
+                    return sources.add((place / name).generic_string(), std::move(*read.text));
+            }
+            return std::nullopt;
+        };
 }
 
 namespace {

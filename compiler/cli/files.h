@@ -21,8 +21,8 @@ Read read_file(const std::string& path, std::size_t limit);
 /// refused by it, with its own message (E0003).
 inline constexpr std::size_t largest_source = std::size_t{64} << 20;
 
-/// Finds `<module>.lobe` in the folder of the importing file.
-check::Loader folder_loader();
+/// Finds `<module>.lobe` in the folder of the importing file, else in the first of these that has it.
+check::Loader folder_loader(std::vector<std::string> folders);
 
 struct OutputFile {
     std::string path;

@@ -41,6 +41,13 @@ int main(int argc, char** argv)
         ->capture_default_str();
     app.add_flag("-q,--quiet", terminal.quiet, "No progress and no summary, only findings");
 
+    app.add_option("-I,--imports", terminal.imports,
+                   "Look for imported modules here too; can be repeated")
+        ->type_name("FOLDER")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->check(CLI::ExistingDirectory);
+
     int status = success;
     add_build(app, terminal, status);
     add_check(app, terminal, status);

@@ -57,7 +57,7 @@ Program read_and_check(const Terminal& terminal, const std::vector<std::string>&
         }
         const auto root = program.sources.add(path, std::move(*read.text));
         const int errors = program.diagnostics.error_count();
-        auto module = front(program.sources, root, folder_loader(), program.diagnostics);
+        auto module = front(program.sources, root, folder_loader(terminal.imports), program.diagnostics);
         if (module) program.modules.push_back(std::move(*module));
         if (program.diagnostics.error_count() > errors && program.status == success)
             program.status = findings;

@@ -4,6 +4,7 @@
 #include "base/diagnostic.h"
 
 #include <string>
+#include <vector>
 
 namespace lobe::cli {
 
@@ -19,6 +20,7 @@ struct Terminal {
     std::string color = "auto";   ///< auto, always, never
     std::string format = "text";  ///< text, short, json, sarif
     bool quiet = false;
+    std::vector<std::string> imports;  ///< folders to look for modules in, after the importer's own
 
     bool color_on_stdout() const;
     bool color_on_stderr() const;

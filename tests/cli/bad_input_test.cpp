@@ -66,6 +66,27 @@ TEST_CASE("a cycle of imports")
     CHECK(scratch.entries() == 2);
 }
 
+TEST_CASE("an import is looked for beside its importer, then where -I says")
+{
+    const Scratch scratch;
+    const std::string user =
+        "module a\nimport b { one }\n/// A.\nterm two(x: unit) -> float = one(x)\n";
+    REQUIRE(scratch.run("mkdir mine shared").status == 0);
+    scratch.write("mine/a.lobe", user);
+    scratch.write("shared/b.lobe", "module b\n/// B.\nterm one(x: unit) -> float = x\n");
+    CHECK(scratch.run("lobec check mine/a.lobe").status == 1);
+    CHECK(scratch.run("lobec -I shared check mine/a.lobe").status == 0);
+    CHECK(scratch.run("lobec check mine/a.lobe --imports mine -I shared").status == 0);
+
+    // Its own folder comes first.
+    scratch.write("mine/b.lobe", "module b\n/// B.\nterm other(x: unit) -> float = x\n");
+    CHECK_THAT(scratch.run("lobec -I shared check mine/a.lobe").err, Contains("error[E0304]"));
+
+    const Outcome outcome = scratch.run("lobec -I absent check mine/a.lobe");
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.err, Contains("absent"));
+}
+
 TEST_CASE("a name declared twice") { refuses("module bad\n" + term + term, "E0302"); }
 
 TEST_CASE("a parameter's default outside its range")
