@@ -2,6 +2,7 @@
 #include "analyze/residual/certificate.h"
 #include "analyze/residual/drop.h"
 #include "analyze/residual/variants.h"
+#include "analyze/tasks.h"
 #include "cli/cache.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
@@ -15,8 +16,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 namespace lobe::cli {
@@ -195,18 +198,21 @@ struct Specialize {
     std::vector<OutputFile> emitted(const ModelFile& file,
                                     const report::Specialization& result) const
     {
-        std::vector<OutputFile> files;
-        Sources sources = file.program.sources;
-        for (std::size_t i = 0; i < result.variants.chosen.size(); ++i) {
+        const auto targets = choose_targets(target_names);
+        std::vector<std::vector<OutputFile>> of_shader(result.variants.chosen.size());
+        analyze::for_each_task(of_shader.size(), jobs, [&](std::size_t i) {
             const analyze::Variant& variant = result.variants.chosen[i];
+            Sources sources = file.program.sources;
             ir::Module module = analyze::renamed(variant.residual.module, variant.name);
             module.remarks = report::remarks(result, i);
             if (!no_lights) module = with_lights(module, result.facts.emitters, sources);
-            for (emit::Artifact& artifact :
-                 back(middle(module), sources, choose_targets(target_names)))
-                files.push_back({(std::filesystem::path{output} / artifact.path).generic_string(),
-                                 std::move(artifact.text)});
-        }
+            for (emit::Artifact& artifact : back(middle(module), sources, targets))
+                of_shader[i].push_back(
+                    {(std::filesystem::path{output} / artifact.path).generic_string(),
+                     std::move(artifact.text)});
+        });
+        std::vector<OutputFile> files;
+        for (auto& some : of_shader) std::ranges::move(some, std::back_inserter(files));
         return files;
     }
 
