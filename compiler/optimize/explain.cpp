@@ -38,8 +38,6 @@ constexpr std::array action_table{
            "no difference v a - 1 to cancel, and as scalars_first"},
     Action{"blend_to_scalar", Kind::rewrite, "lerp(1, b, t)", "b + (1 - t)(1 - b)",
            "adds where b is small, and 1 - b is the same for all components"},
-    Action{"blend_of_scalars", Kind::rewrite, "lerp(1, b, t)", "1 - t (1 - b)",
-           "1 - b joins with the product that b is; t stays away from 1, where it would cancel"},
     Action{"blend_to_one", Kind::rewrite, "x + (1 - x) a", "x (1 - a) + a", "as scalars_first"},
     // legalize.cpp
     Action{"whole_power", Kind::rewrite, "x^5", "(x^2)^2 x",

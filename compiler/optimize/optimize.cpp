@@ -1,6 +1,7 @@
 #include "optimize/optimize.h"
 
 #include "ir/shade.h"
+#include "optimize/decimal.h"
 #include "optimize/explain.h"
 #include "optimize/stabilize.h"
 
@@ -26,8 +27,10 @@ ir::Module run(const ir::Module& module, const Notes& notes, std::vector<Applica
     const ir::Module tidy = checked(simplify_again(simple, reduced));
     // While powers are powers and differences stand as they were written.
     const ir::Module stable = checked(stabilize(tidy, applied));
-    // What a stable form folds to, and inputs that nothing reads any more.
-    const ir::Module clean = checked(simplify_again(tidy, stable));
+    // What a stable form leaves of numbers is as small as what it was to keep: no float of it.
+    const ir::Module exact = checked(fold_decimals(stable));
+    // What that folds to, and inputs that nothing reads any more.
+    const ir::Module clean = checked(simplify_again(tidy, exact));
     // The powers that no sum took part in.
     const ir::Module sharp = checked(near_one(clean, notes));
     // After all that looks for what the author wrote.

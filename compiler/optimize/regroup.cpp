@@ -5,14 +5,11 @@
 //     c ? v a : 0        ->  v (c ? a : 0)           where c asks for a > 0, without that
 //     lerp(1, v a, t)    ->  (1 - t) + v (a t)       exactly 1 at t = 0, v a at t = 1
 //     lerp(1, b, t)      ->  b + (1 - t)(1 - b)      b scalar, t vector; 1 at t = 0, b at t = 1
-//     lerp(1, b, t)      ->  1 - t (1 - b)           both scalar, t at most 3/4; 1 at t = 0
 //     x + (1 - x) a      ->  x (1 - a) + a           exactly x at a = 0, 1 at a = 1 or x = 1
 //
 // A vector operation is three scalar ones on every target, and each rounds. No sum on the right
-// subtracts what the left one did not: in the last three lines t and a are in [0, 1]. Where t is at
-// most 3/4 the blend is at least 1/4, and the halves of 2^-24 that 1 - b and its product round off
-// are less than two units of it. A product that could leave the range of float where the written
-// one did not is left alone.
+// subtracts what the left one did not: in the last two lines t and a are in [0, 1]. A product that
+// could leave the range of float where the written one did not is left alone.
 #include "evaluate/run.h"
 #include "optimize/explain.h"
 #include "optimize/literal.h"
@@ -44,8 +41,9 @@ public:
         : rebuild_{rebuild}, notes_{notes}, old_{rebuild.old().graph}, uses_{use_counts(
                                                                            old_,
                                                                            rebuild.old().result)},
-          absorbed_(old_.size()), ranges_{ranges(rebuild, evaluate::Arithmetic::float32)},
-          reals_{ranges(rebuild, evaluate::Arithmetic::reals)}
+          absorbed_(old_.size()), ranges_{
+                                      evaluate::ranges(rebuild.old_module(), rebuild.old(),
+                                                       evaluate::declared_ranges(rebuild.old()))}
     {
         for (const ExprId id : old_.ids()) {
             const Op op = old_[id].op;
@@ -60,12 +58,9 @@ public:
 
     ExprId step(ExprId id)
     {
-        if (uses_[id] == 0 || absorbed_[id]) return rebuild_.copy(id);
+        if (uses_[id] == 0 || absorbed_[id] || components(old_[id].type) < 2)
+            return rebuild_.copy(id);
         std::optional<ExprId> better;
-        if (!is_vector(id)) {
-            if (old_[id].op == Op::lerp) better = lerp_of_scalars(id);
-            return better ? *better : rebuild_.copy(id);
-        }
         switch (old_[id].op) {
         case Op::multiply:
         case Op::divide: better = product(id); break;
@@ -73,7 +68,6 @@ public:
         case Op::lerp:
             better = lerp_from_one(id);
             if (!better) better = lerp_to_scalar(id);
-            if (!better) better = lerp_of_scalars(id);
             break;
         case Op::add: better = towards_one(id); break;
         default: break;
@@ -82,12 +76,6 @@ public:
     }
 
 private:
-    static Facts<Expr, Interval> ranges(const Rebuild& rebuild, evaluate::Arithmetic arithmetic)
-    {
-        return evaluate::ranges(rebuild.old_module(), rebuild.old(),
-                                evaluate::declared_ranges(rebuild.old()), arithmetic);
-    }
-
     Graph& graph() { return rebuild_.graph; }
     void note(std::string_view name, ExprId id) { notes_.add(name, rebuild_.id(), old_.span(id)); }
     ExprId moved(ExprId old_id) const { return rebuild_.moved(old_id); }
@@ -277,37 +265,6 @@ private:
         return graph().apply(Op::add, {moved(*end), rest}, span);
     }
 
-    /// Over the real numbers, of what is not negative. Functions keep what they declare.
-    double greatest(ExprId id) const
-    {
-        const Expr& expr = old_[id];
-        if (expr.op == Op::call)
-            if (const auto& declared = rebuild_.old_module()[FunctionId{expr.aux}].declared_range)
-                return declared->high;
-        const auto operands = old_.operands(id);
-        if (expr.op != Op::multiply || reals_[operands[0]].low < 0 || reals_[operands[1]].low < 0)
-            return reals_[id].high;
-        return greatest(operands[0]) * greatest(operands[1]);
-    }
-
-    std::optional<ExprId> lerp_of_scalars(ExprId id)
-    {
-        constexpr double most = 0.75;
-        const auto operands = old_.operands(id);
-        const auto end = scalar_of(operands[1]);
-        const auto share = scalar_of(operands[2]);
-        if (exact_literal(old_, operands[0]) != 1 || !end || !share || !is_share(*end) ||
-            reals_[*share].low < 0 || greatest(*share) > most)
-            return std::nullopt;
-        const Span span = old_.span(id);
-        const ExprId one = graph().literal("1", span);
-        const ExprId missing = graph().apply(Op::subtract, {one, moved(*end)}, span);
-        const ExprId taken = graph().apply(Op::multiply, {moved(*share), missing}, span);
-        const ExprId left = graph().apply(Op::subtract, {one, taken}, span);
-        note("blend_of_scalars", id);
-        return is_vector(id) ? graph().construct(old_[id].type, {&left, 1}, span) : left;
-    }
-
     std::optional<ExprId> towards_one(ExprId id)
     {
         const auto operands = old_.operands(id);
@@ -345,7 +302,6 @@ private:
     Facts<Expr, int> uses_;
     Facts<Expr, bool> absorbed_;  ///< part of a product that is taken apart as a whole
     Facts<Expr, Interval> ranges_;
-    Facts<Expr, Interval> reals_;  ///< over the real numbers
 };
 
 }  // namespace
@@ -356,9 +312,9 @@ Module regroup(const Module& module, const Notes& notes)
         const Graph& old = rebuild.old().graph;
         const auto is_candidate = [&](ExprId id) {
             const Op op = old[id].op;
-            if (op == Op::lerp) return true;
             return components(old[id].type) > 1 &&
-                   (op == Op::multiply || op == Op::divide || op == Op::select || op == Op::add);
+                   (op == Op::multiply || op == Op::divide || op == Op::select || op == Op::lerp ||
+                    op == Op::add);
         };
         if (!any_expression(old, is_candidate)) return {};
         const auto regrouping = std::make_shared<Regroup>(rebuild, notes);

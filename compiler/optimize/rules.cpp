@@ -166,7 +166,10 @@ private:
 
         Match match{nullptr, variable, degree, add(parts->constant, parts->slope),
                     negate(parts->slope)};
-        const bool cancels = match.rest.size() + 2 <= parts->constant.size() + parts->slope.size();
+        // Of a sum with numbers alone nothing is left over; how much they cancel shows below.
+        const bool cancels =
+            match.rest.size() + 2 <= parts->constant.size() + parts->slope.size() ||
+            (is_number(parts->constant) && is_number(parts->slope));
         if (!cancels || opposite(range(match.rest), range(match.slope))) return std::nullopt;
         const bool is_field = match.rest.empty() && degree == 1 && is_at_hand(variable);
         if (!is_field && is_absorbed(id, parts->slope, degree)) return std::nullopt;
@@ -185,6 +188,14 @@ private:
         if (rule == rule_table.end()) return std::nullopt;
         match.rule = &*rule;
         return match;
+    }
+
+    bool is_number(const Sum& sum) const
+    {
+        return std::ranges::all_of(sum, [&](const Monomial& monomial) {
+            return std::ranges::all_of(
+                monomial.factors, [&](ExprId factor) { return graph_[factor].op == Op::literal; });
+        });
     }
 
     /// One minus a variable is a field that is computed anyway.

@@ -39,8 +39,7 @@ public:
     ExprId replacement(const Match& match, ExprId before)
     {
         ExprId product = complement(match);
-        const bool negative = std::ranges::all_of(
-            match.slope, [](const Monomial& monomial) { return monomial.coefficient < 0; });
+        const bool negative = bounds(match.slope, subject_.ranges).high <= 0;
         const Sum slope = negative ? negate(match.slope) : match.slope;
         if (slope.size() != 1 || !slope[0].factors.empty() || slope[0].coefficient != 1)
             product = apply(Op::multiply, sum(slope, before), product);

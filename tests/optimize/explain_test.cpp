@@ -45,7 +45,6 @@ const std::vector<Example> examples{
     {"gated_scalar", "luminance(if x > y then c * s else 0)"},
     {"blend_from_one", "luminance(lerp(1, c * x, y))"},
     {"blend_to_scalar", "luminance(lerp(1, x, c * y))"},
-    {"blend_of_scalars", "lerp(1, x, 0.75 * y)"},
     {"blend_to_one", "luminance(c + (1 - c) * x)"},
     {"whole_power", "x^5"},
     {"half_power", "x^2.5"},

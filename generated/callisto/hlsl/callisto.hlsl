@@ -117,26 +117,28 @@ float3 c1(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH, float diff
 // cosines, not of angles: with angles in radians it would exceed 1, and c2 go below 0.
 // slides 90: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = (1 - (1 - g.cos_d)^3) * (1 - (1 - g.cos_h)^3)
+// OneMinusNoH is |n - h|^2 / 2.
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 1].
 // models/callisto.lobe:105
-float alpha_s(float NoH, float VoH)
+float alpha_s(float NoH, float VoH, float OneMinusNoH, float OneMinusVoH)
 {
-    const float one_minus_VoH = 1.0 - VoH;
-    const float one_minus_NoH = 1.0 - NoH;
-    const float t0 = NoH * (1.0 + one_minus_NoH * (1.0 + one_minus_NoH));
-    return t0 * (VoH * (1.0 + one_minus_VoH * (1.0 + one_minus_VoH)));
+    const float t0 = NoH * (1.0 + OneMinusNoH * (1.0 + OneMinusNoH));
+    return t0 * (VoH * (1.0 + OneMinusVoH * (1.0 + OneMinusVoH)));
 }
 
 // Smooth terminator; scales diffuse and specular.
 // slides 90: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = let mask = alpha_s(g); lerp(1, smoothstep(0, mask * smooth_terminator_length, g.cos_i), mask *
 // smooth_terminator * smooth_terminator_tint)
+// OneMinusNoH is |n - h|^2 / 2.
+// OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // Returns [0, 2].
 // models/callisto.lobe:109
-float3 c2(float NoL, float NoH, float VoH, float smooth_terminator, float3 smooth_terminator_tint,
-    float smooth_terminator_length)
+float3 c2(float NoL, float NoH, float VoH, float OneMinusNoH, float OneMinusVoH,
+    float smooth_terminator, float3 smooth_terminator_tint, float smooth_terminator_length)
 {
-    const float mask = alpha_s(NoH, VoH);
+    const float mask = alpha_s(NoH, VoH, OneMinusNoH, OneMinusVoH);
     const float t0 = guarded_smoothstep(0.0, mask * smooth_terminator_length, NoL);
     return t0 + (1.0 - mask * smooth_terminator * smooth_terminator_tint) * (1.0 - t0);
 }
@@ -290,8 +292,8 @@ float3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, f
     const float3 c1_value = c1(NoH, VoH, OneMinusNoH, OneMinusVoH, diffuse_fresnel,
         diffuse_fresnel_falloff, retroreflection, retroreflection_falloff, diffuse_fresnel_tint,
         retroreflection_tint, diffuse_fresnel_tangent_falloff, retroreflection_tangent_falloff);
-    const float3 c2_value = c2(NoL, NoH, VoH, smooth_terminator, smooth_terminator_tint,
-        smooth_terminator_length);
+    const float3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
+        smooth_terminator_tint, smooth_terminator_length);
     const float3 t0 = c1_value * proxima_cos(diffuse_color, roughness * roughness, NoL, NoV, VoL);
     return t0 * c2_value;
 }
@@ -300,17 +302,19 @@ float3 callisto_diffuse(float NoL, float NoV, float NoH, float VoH, float VoL, f
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:202
-float3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusVoH,
-    float roughness, float3 f0, float smooth_terminator, float3 smooth_terminator_tint,
-    float specular_fresnel_falloff, float dual_specular_roughness_scale,
-    float dual_specular_opacity, float smooth_terminator_length)
+float3 callisto_specular(float NoL, float NoV, float NoH, float VoH, float NxH2, float OneMinusNoH,
+    float OneMinusVoH, float roughness, float3 f0, float smooth_terminator,
+    float3 smooth_terminator_tint, float specular_fresnel_falloff,
+    float dual_specular_roughness_scale, float dual_specular_opacity,
+    float smooth_terminator_length)
 {
     const float3 specular_cos_value = specular_cos(f0, roughness, NoL, NoV, NxH2, OneMinusVoH,
         specular_fresnel_falloff, dual_specular_roughness_scale, dual_specular_opacity);
-    const float3 c2_value = c2(NoL, NoH, VoH, smooth_terminator, smooth_terminator_tint,
-        smooth_terminator_length);
+    const float3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
+        smooth_terminator_tint, smooth_terminator_length);
     return specular_cos_value * c2_value;
 }
 
@@ -331,8 +335,8 @@ float3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, floa
     const float3 c1_value = c1(NoH, VoH, OneMinusNoH, OneMinusVoH, diffuse_fresnel,
         diffuse_fresnel_falloff, retroreflection, retroreflection_falloff, diffuse_fresnel_tint,
         retroreflection_tint, diffuse_fresnel_tangent_falloff, retroreflection_tangent_falloff);
-    const float3 c2_value = c2(NoL, NoH, VoH, smooth_terminator, smooth_terminator_tint,
-        smooth_terminator_length);
+    const float3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
+        smooth_terminator_tint, smooth_terminator_length);
     return c1_value * lambert_cos(diffuse_color, NoL, NoV) * c2_value;
 }
 
@@ -341,18 +345,19 @@ float3 callisto_lambert_diffuse(float NoL, float NoV, float NoH, float VoH, floa
 // slides 131: Jimenez et al. 2023, The Character Rendering Art of The Callisto Protocol
 // = specular_cos(s.f0, s.roughness, g) * c2(g)
 // NxH2 is |n x h|^2, which is 1 - cos_h^2.
+// OneMinusNoH is |n - h|^2 / 2.
 // OneMinusVoH is |l - v|^2 / (4 (1 + l.h)).
 // models/callisto.lobe:210
 float3 callisto_lambert_specular(float NoL, float NoV, float NoH, float VoH, float NxH2,
-    float OneMinusVoH, float roughness, float3 f0, float smooth_terminator,
+    float OneMinusNoH, float OneMinusVoH, float roughness, float3 f0, float smooth_terminator,
     float3 smooth_terminator_tint, float specular_fresnel_falloff,
     float dual_specular_roughness_scale, float dual_specular_opacity,
     float smooth_terminator_length)
 {
     const float3 specular_cos_value = specular_cos(f0, roughness, NoL, NoV, NxH2, OneMinusVoH,
         specular_fresnel_falloff, dual_specular_roughness_scale, dual_specular_opacity);
-    const float3 c2_value = c2(NoL, NoH, VoH, smooth_terminator, smooth_terminator_tint,
-        smooth_terminator_length);
+    const float3 c2_value = c2(NoL, NoH, VoH, OneMinusNoH, OneMinusVoH, smooth_terminator,
+        smooth_terminator_tint, smooth_terminator_length);
     return specular_cos_value * c2_value;
 }
 
@@ -458,10 +463,11 @@ CallistoResult callisto(float3 l, float3 v, float3 n, CallistoSurface surface,
         parameters.diffuse_fresnel_tint, parameters.retroreflection_tint,
         parameters.smooth_terminator_tint, parameters.diffuse_fresnel_tangent_falloff,
         parameters.retroreflection_tangent_falloff, parameters.smooth_terminator_length);
-    result.specular = callisto_specular(NoL, NoV, NoH, VoH, NxH2, OneMinusVoH, surface.roughness,
-        surface.f0, parameters.smooth_terminator, parameters.smooth_terminator_tint,
-        parameters.specular_fresnel_falloff, parameters.dual_specular_roughness_scale,
-        parameters.dual_specular_opacity, parameters.smooth_terminator_length);
+    result.specular = callisto_specular(NoL, NoV, NoH, VoH, NxH2, OneMinusNoH, OneMinusVoH,
+        surface.roughness, surface.f0, parameters.smooth_terminator,
+        parameters.smooth_terminator_tint, parameters.specular_fresnel_falloff,
+        parameters.dual_specular_roughness_scale, parameters.dual_specular_opacity,
+        parameters.smooth_terminator_length);
     return result;
 }
 
@@ -567,7 +573,7 @@ CallistoLambertResult callisto_lambert(float3 l, float3 v, float3 n, CallistoLam
         parameters.retroreflection_tint, parameters.smooth_terminator_tint,
         parameters.diffuse_fresnel_tangent_falloff, parameters.retroreflection_tangent_falloff,
         parameters.smooth_terminator_length);
-    result.specular = callisto_lambert_specular(NoL, NoV, NoH, VoH, NxH2, OneMinusVoH,
+    result.specular = callisto_lambert_specular(NoL, NoV, NoH, VoH, NxH2, OneMinusNoH, OneMinusVoH,
         surface.roughness, surface.f0, parameters.smooth_terminator,
         parameters.smooth_terminator_tint, parameters.specular_fresnel_falloff,
         parameters.dual_specular_roughness_scale, parameters.dual_specular_opacity,

@@ -58,7 +58,7 @@ float falloff(float distance_squared, float inverse_range)
 float falloff_punctual(float distance_squared, float inverse_range)
 {
     float ratio = min(distance_squared * (inverse_range * inverse_range), 1.0);
-    return (1.0 - ratio) * (1.0 + ratio) / max(distance_squared, 1.0 / 10000.0);
+    return (1.0 - ratio) * (1.0 + ratio) / max(distance_squared, 0.0001);
 }
 
 // Of a spot's light, between its inner and its outer angle.
@@ -68,9 +68,8 @@ float falloff_punctual(float distance_squared, float inverse_range)
 // models/lights.lobe:46
 float cone(float cos_angle, float cos_inner, float cos_outer)
 {
-    float t0 = (cos_angle - cos_outer) / max(cos_inner - cos_outer, 1.0 / 1000.0);
-    float t1 = clamp(t0, 0.0, 1.0);
-    return t1 * t1;
+    float t0 = clamp((cos_angle - cos_outer) / max(cos_inner - cos_outer, 0.001), 0.0, 1.0);
+    return t0 * t0;
 }
 
 // Alpha of a highlight that is as wide as the source makes it.
@@ -122,29 +121,30 @@ vec3 closest_on_sphere(vec3 to_light, vec3 r, float radius)
     return to_light + t1;
 }
 
-// How far along the axis of an endless tube its point nearest to the ray is, from the middle. The
-// quotient of cross products is equation 19 without its cancellation. Where the ray runs along the
-// tube all of it is equally near: the middle.
+// How far along the axis of a tube its point nearest to the ray is, from the middle. The quotient
+// of cross products is equation 19 without its cancellation. Where the ray runs along the tube all
+// of it is equally near: the middle.
 // Karis13 eq 19: Karis 2013, Real Shading in Unreal Engine 4
-// = let across = cross(axis, r); -dot(across, cross(to_light, r)) / dot(across, across) else 0
-// Expects to_light in [-16777216, 16777216].
+// = let across = cross(axis, r); clamp(-dot(across, cross(to_light, r)) / dot(across, across) else
+// 0, -half_length, half_length)
+// Expects to_light in [-16777216, 16777216], half_length in [0, 4096]. Returns [-4096, 4096].
 // models/lights.lobe:92
-float along_tube(vec3 to_light, vec3 axis, vec3 r)
+float along_tube(vec3 to_light, vec3 axis, vec3 r, float half_length)
 {
     vec3 across = cross(axis, r);
     float t0 = dot(across, across);
-    return t0 >= 5.421011e-20 ? -dot(across, cross(to_light, r)) / t0 : 0.0;
+    float t1 = t0 >= 5.421011e-20 ? -dot(across, cross(to_light, r)) / t0 : 0.0;
+    return clamp(t1, -half_length, half_length);
 }
 
 // The point of a tube that is nearest to the ray.
 // Karis13 eq 17: Karis 2013, Real Shading in Unreal Engine 4
-// = to_light + clamp(along_tube(to_light, axis, r), -half_length, half_length) * axis
+// = to_light + along_tube(to_light, axis, r, half_length) * axis
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:108
+// models/lights.lobe:117
 vec3 closest_on_tube(vec3 to_light, vec3 axis, vec3 r, float half_length)
 {
-    vec3 t0 = clamp(along_tube(to_light, axis, r), -half_length, half_length) * axis;
-    return to_light + t0;
+    return to_light + along_tube(to_light, axis, r, half_length) * axis;
 }
 
 // Half the sum of the unit vectors to a tube's ends: the direction that its light comes from, and
@@ -152,7 +152,7 @@ vec3 closest_on_tube(vec3 to_light, vec3 axis, vec3 r, float half_length)
 // Karis13 eq 15: Karis 2013, Real Shading in Unreal Engine 4
 // = (normalize(l0) + normalize(l1)) / 2
 // Expects l0 in [-33554432, 33554432], l1 in [-33554432, 33554432].
-// models/lights.lobe:120
+// models/lights.lobe:129
 vec3 line_vector(vec3 l0, vec3 l1)
 {
     return (guarded_normalize(l0) + guarded_normalize(l1)) / 2.0;
@@ -165,7 +165,7 @@ vec3 line_vector(vec3 l0, vec3 l1)
 // = let agreement = min(length(line_vector(l0, l1)), 1); agreement / (length(l0) * length(l1) *
 // agreement^2 + 1)
 // Expects l0 in [-33554432, 33554432], l1 in [-33554432, 33554432]. Returns [0, 1].
-// models/lights.lobe:127
+// models/lights.lobe:136
 float line_irradiance(vec3 l0, vec3 l1)
 {
     float agreement = min(length(line_vector(l0, l1)), 1.0);
@@ -176,7 +176,7 @@ float line_irradiance(vec3 l0, vec3 l1)
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:137
+// models/lights.lobe:146
 vec3 directional_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -186,7 +186,7 @@ vec3 directional_direction(vec3 to_light)
 // From everywhere the same: a sun, in lux.
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = 1
-// models/lights.lobe:138
+// models/lights.lobe:147
 float directional_irradiance()
 {
     return 1.0;
@@ -195,7 +195,7 @@ float directional_irradiance()
 // Karis13 eq 9: Karis 2013, Real Shading in Unreal Engine 4
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:143
+// models/lights.lobe:152
 vec3 point_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -205,7 +205,7 @@ vec3 point_direction(vec3 to_light)
 // Karis13 eq 9: Karis 2013, Real Shading in Unreal Engine 4
 // = falloff(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], inverse_range in [0, 4096].
-// models/lights.lobe:144
+// models/lights.lobe:153
 float point_irradiance(vec3 to_light, float inverse_range)
 {
     float distance_squared = dot(to_light, to_light);
@@ -216,7 +216,7 @@ float point_irradiance(vec3 to_light, float inverse_range)
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:150
+// models/lights.lobe:159
 vec3 punctual_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -227,7 +227,7 @@ vec3 punctual_direction(vec3 to_light)
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = falloff_punctual(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], inverse_range in [0, 4096].
-// models/lights.lobe:151
+// models/lights.lobe:160
 float punctual_irradiance(vec3 to_light, float inverse_range)
 {
     float distance_squared = dot(to_light, to_light);
@@ -238,7 +238,7 @@ float punctual_irradiance(vec3 to_light, float inverse_range)
 // KhronosLights: Khronos Group, glTF 2.0 extension KHR_lights_punctual
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:157
+// models/lights.lobe:166
 vec3 spot_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -251,7 +251,7 @@ vec3 spot_direction(vec3 to_light)
 // e.cos_outer)
 // Expects to_light in [-16777216, 16777216], inverse_range in [0, 4096], cos_inner in [0, 1],
 // cos_outer in [0, 1].
-// models/lights.lobe:158
+// models/lights.lobe:167
 float spot_irradiance(vec3 to_light, vec3 axis, float inverse_range, float cos_inner,
     float cos_outer)
 {
@@ -265,7 +265,7 @@ float spot_irradiance(vec3 to_light, vec3 axis, float inverse_range, float cos_i
 // Karis13 eq 11: Karis 2013, Real Shading in Unreal Engine 4
 // = e.l
 // Expects to_light in [-16777216, 16777216].
-// models/lights.lobe:166
+// models/lights.lobe:175
 vec3 sphere_direction(vec3 to_light)
 {
     vec3 l = guarded_normalize(to_light);
@@ -276,7 +276,7 @@ vec3 sphere_direction(vec3 to_light)
 // Karis13 eq 11: Karis 2013, Real Shading in Unreal Engine 4
 // = falloff(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], inverse_range in [0, 4096].
-// models/lights.lobe:167
+// models/lights.lobe:176
 float sphere_irradiance(vec3 to_light, float inverse_range)
 {
     float distance_squared = dot(to_light, to_light);
@@ -287,7 +287,7 @@ float sphere_irradiance(vec3 to_light, float inverse_range)
 // Karis13 eq 11: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(closest_on_sphere(e.to_light, e.r, e.radius))
 // Expects to_light in [-16777216, 16777216], radius in [0, 4096].
-// models/lights.lobe:168
+// models/lights.lobe:177
 vec3 sphere_specular_direction(vec3 to_light, float radius, vec3 v, vec3 n)
 {
     vec3 r = 2.0 * dot(n, v) * n - v;
@@ -298,7 +298,7 @@ vec3 sphere_specular_direction(vec3 to_light, float radius, vec3 v, vec3 n)
 // Karis13 eq 11: Karis 2013, Real Shading in Unreal Engine 4
 // = SphereNormalization(s.alpha, e.radius, length(e.to_light))
 // Expects to_light in [-16777216, 16777216], radius in [0, 4096].
-// models/lights.lobe:169
+// models/lights.lobe:178
 float sphere_specular_gain(vec3 to_light, float radius, float roughness)
 {
     return SphereNormalization(roughness * roughness, radius, length(to_light));
@@ -309,7 +309,7 @@ float sphere_specular_gain(vec3 to_light, float radius, float roughness)
 // Karis13 eq 16: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(line_vector(l0, l1))
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:178
+// models/lights.lobe:187
 vec3 tube_direction(vec3 to_light, vec3 axis, float half_length)
 {
     vec3 t0 = half_length * axis;
@@ -323,7 +323,7 @@ vec3 tube_direction(vec3 to_light, vec3 axis, float half_length)
 // Karis13 eq 16: Karis 2013, Real Shading in Unreal Engine 4
 // = line_irradiance(l0, l1) * window(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096], inverse_range in [0, 4096].
-// models/lights.lobe:179
+// models/lights.lobe:188
 float tube_irradiance(vec3 to_light, vec3 axis, float half_length, float inverse_range)
 {
     vec3 t0 = half_length * axis;
@@ -338,7 +338,7 @@ float tube_irradiance(vec3 to_light, vec3 axis, float half_length, float inverse
 // Karis13 eq 16: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(closest_on_tube(e.to_light, e.axis, e.r, e.half_length))
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:180
+// models/lights.lobe:189
 vec3 tube_specular_direction(vec3 to_light, vec3 axis, float half_length, vec3 v, vec3 n)
 {
     vec3 r = 2.0 * dot(n, v) * n - v;
@@ -350,7 +350,7 @@ vec3 tube_specular_direction(vec3 to_light, vec3 axis, float half_length, vec3 v
 // Karis13 eq 16: Karis 2013, Real Shading in Unreal Engine 4
 // = LineNormalization(s.alpha, e.half_length, length(e.to_light))
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:181
+// models/lights.lobe:190
 float tube_specular_gain(vec3 to_light, float half_length, float roughness)
 {
     return LineNormalization(roughness * roughness, half_length, length(to_light));
@@ -361,7 +361,7 @@ float tube_specular_gain(vec3 to_light, float half_length, float roughness)
 // Karis13 eq 17: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(line_vector(l0, l1))
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096].
-// models/lights.lobe:191
+// models/lights.lobe:200
 vec3 capsule_direction(vec3 to_light, vec3 axis, float half_length)
 {
     vec3 t0 = half_length * axis;
@@ -375,7 +375,7 @@ vec3 capsule_direction(vec3 to_light, vec3 axis, float half_length)
 // Karis13 eq 17: Karis 2013, Real Shading in Unreal Engine 4
 // = line_irradiance(l0, l1) * window(e.distance_squared, e.inverse_range)
 // Expects to_light in [-16777216, 16777216], half_length in [0, 4096], inverse_range in [0, 4096].
-// models/lights.lobe:192
+// models/lights.lobe:201
 float capsule_irradiance(vec3 to_light, vec3 axis, float half_length, float inverse_range)
 {
     vec3 t0 = half_length * axis;
@@ -390,7 +390,7 @@ float capsule_irradiance(vec3 to_light, vec3 axis, float half_length, float inve
 // Karis13 eq 17: Karis 2013, Real Shading in Unreal Engine 4
 // = normalize(closest_on_sphere(nearest, e.r, e.radius))
 // Expects to_light in [-16777216, 16777216], radius in [0, 4096], half_length in [0, 4096].
-// models/lights.lobe:193
+// models/lights.lobe:202
 vec3 capsule_specular_direction(vec3 to_light, vec3 axis, float radius, float half_length, vec3 v,
     vec3 n)
 {
@@ -405,7 +405,7 @@ vec3 capsule_specular_direction(vec3 to_light, vec3 axis, float radius, float ha
 // = LineNormalization(s.alpha, e.half_length, length(e.to_light)) * SphereNormalization(s.alpha,
 // e.radius, length(e.to_light))
 // Expects to_light in [-16777216, 16777216], radius in [0, 4096], half_length in [0, 4096].
-// models/lights.lobe:194
+// models/lights.lobe:203
 float capsule_specular_gain(vec3 to_light, float radius, float half_length, float roughness)
 {
     float roughness2 = roughness * roughness;
