@@ -211,17 +211,18 @@ namespace {
 
 /// Callisto's base under these lights, against the general model under them.
 Certificate lit(const std::map<std::string, optimize::Called>& told,
-                const std::map<std::string, optimize::Called>& scene)
+                const std::map<std::string, optimize::Called>& scene,
+                const optimize::Settings& surface = {}, std::size_t points = 1024)
 {
     Sources sources = callisto().sources;
     std::vector<std::string> names;
     for (const auto& [name, emitter] : told) names.push_back(name);
     const ir::Module general = with_lights(callisto().module, names, sources, "callisto");
-    const auto what = called(callisto().module, {}, {}, {});
+    const auto what = called(callisto().module, surface, {}, {});
     optimize::Residual residual = optimize::residual(callisto().module, what, "callisto");
     residual.module = with_lights(residual.module, told, sources, "callisto");
     CertificateOptions options = few_points();
-    options.points = 1024;
+    options.points = points;
     return certify(general, sources, "callisto", {{&what, &residual, {}, &scene}}, options, {})
         .front();
 }
@@ -252,6 +253,24 @@ TEST_CASE("lights of a scene are certified with what it says of them")
         CAPTURE(output.output, output.worst);
         CHECK(output.ok());
         CHECK_FALSE(output.device.empty());
+    }
+}
+
+TEST_CASE("a material of known numbers is certified under a light, wherever that is")
+{
+    // Hostile points have lights at distances whose squares are no floats: with what stands for a
+    // direction there, |n x h|^2 and 1 - n.h^2 are different numbers. And with numbers in the place
+    // of roughness and F0 there is nothing left of the general shader's cancellations.
+    const std::map<std::string, optimize::Called> scene{{"directional", {}}};
+    const Certificate certificate =
+        lit(scene, scene,
+            {{"roughness", {0.5}}, {"diffuse_color", {0.5, 0.5, 0.5}}, {"f0", {0.04, 0.04, 0.04}}},
+            16384);
+    REQUIRE(certificate.outputs.size() == 3);
+    CHECK(certificate.outputs[2].points == 16384);
+    for (const Equality& output : certificate.outputs) {
+        CAPTURE(output.output, output.worst, output.outside, output.device_outside);
+        CHECK(output.ok());
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lobe::analyze {
 namespace {
@@ -28,6 +29,20 @@ constexpr double wide = 0x1p-10;
 bool is_of_scene(const ir::Input& input)
 {
     return input.origin == ir::Origin::parameter || input.origin == ir::Origin::surface;
+}
+
+/// A light at the very point is in no direction. Formulas that take unit vectors for granted owe
+/// each other nothing there: such lights are moved away.
+void move_lights_away(const ir::Input& input, std::span<std::vector<float>> coordinates)
+{
+    if (input.origin != ir::Origin::emitter ||
+        input.which != static_cast<std::uint32_t>(ir::EmitterField::to_light))
+        return;
+    for (std::size_t point = 0; point < coordinates.front().size(); ++point) {
+        float squares = 0;
+        for (const auto& coordinate : coordinates) squares += coordinate[point] * coordinate[point];
+        if (squares < std::numeric_limits<float>::min()) coordinates.back()[point] = 1;
+    }
 }
 
 /// A material's number reaches a shader as the float next to it: the general function may be given
@@ -135,6 +150,8 @@ Comparison::Comparison(const ir::Module& general, const ir::Function& meant,
 
     std::size_t column = 0;
     for (const ir::Input& input : probe.inputs) {
+        move_lights_away(input, std::span{chosen.columns}.subspan(
+                                    column, static_cast<std::size_t>(ir::components(input.type))));
         const std::vector<double>* constant = box.constant(input);
         for (int k = 0; k < ir::components(input.type); ++k, ++column) {
             std::vector<float>& values = chosen.columns[column];
