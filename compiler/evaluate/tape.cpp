@@ -71,6 +71,20 @@ FusedCode write_fused(const FusedLine& fused)
 int arity(TapeOp op) { return op_entries[static_cast<std::size_t>(op)].arity; }
 std::string_view name(TapeOp op) { return op_entries[static_cast<std::size_t>(op)].name; }
 
+bool makes_condition(TapeOp op)
+{
+    switch (op) {
+    case TapeOp::less:
+    case TapeOp::less_equal:
+    case TapeOp::equal:
+    case TapeOp::not_equal:
+    case TapeOp::logical_and:
+    case TapeOp::logical_or:
+    case TapeOp::logical_not: return true;
+    default: return false;
+    }
+}
+
 Tape compile(const ir::Module& module, const ir::Function& function)
 {
     const Line line = scalarize(module, function, Trace::live);

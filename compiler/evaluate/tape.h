@@ -21,6 +21,8 @@ enum class TapeOp : std::uint8_t {
 
 int arity(TapeOp op);
 std::string_view name(TapeOp op);
+/// Its result is true or false, as 1 or 0.
+bool makes_condition(TapeOp op);
 
 using Slot = std::uint32_t;
 

@@ -13,22 +13,6 @@ using Waist = std::vector<std::uint32_t>;
 
 std::size_t arity(const RoundingNode& node) { return static_cast<std::size_t>(node.arity); }
 
-/// A condition is no number, and has no middle.
-bool is_condition(const RoundingNode& node)
-{
-    if (node.kind != RoundingNode::Kind::operation) return false;
-    switch (node.op) {
-    case TapeOp::less:
-    case TapeOp::less_equal:
-    case TapeOp::equal:
-    case TapeOp::not_equal:
-    case TapeOp::logical_and:
-    case TapeOp::logical_or:
-    case TapeOp::logical_not: return true;
-    default: return false;
-    }
-}
-
 /// How far each is from the output.
 std::vector<std::size_t> heights(const RoundingTape& tape)
 {
@@ -95,8 +79,11 @@ private:
 
     void add(const Waist& waist)
     {
-        const bool has_condition = std::ranges::any_of(
-            waist, [&](std::uint32_t node) { return is_condition(tape_.nodes[node]); });
+        // A condition is no number, and has no middle.
+        const bool has_condition = std::ranges::any_of(waist, [&](std::uint32_t each) {
+            const RoundingNode& node = tape_.nodes[each];
+            return node.kind == RoundingNode::Kind::operation && makes_condition(node.op);
+        });
         if (!has_condition && std::ranges::find(found_, waist) == found_.end())
             found_.push_back(waist);
     }

@@ -149,8 +149,10 @@ Sky::Chosen Sky::choose(Pair uniform) const
     const float left = share > 0 ? (uniform[0] - below_[texel]) / share : 0.5F;
     const TexelPlace at = texel_place(texel, texels_.size);
     const double edge = texels_.size;
-    const double u = (at.column + std::clamp(left, 0.0F, 1.0F)) / edge * 2 - 1;
-    const double v = (at.row + uniform[1]) / edge * 2 - 1;
+    const double column = at.column + static_cast<double>(std::clamp(left, 0.0F, 1.0F));
+    const double row = at.row + static_cast<double>(uniform[1]);
+    const double u = column / edge * 2 - 1;
+    const double v = row / edge * 2 - 1;
     const Vector3 direction = normalized(world_of(analyze::cube_point({at.face, u, v})));
     return {direction, density(direction)};
 }

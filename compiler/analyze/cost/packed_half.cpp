@@ -38,7 +38,7 @@ public:
             slots_[constant.slot] = {fmt::format("f16vec2({})", dialect_.literal(constant.literal)),
                                      false};
         for (const Instruction& instruction : tape.code) {
-            const bool is_condition = makes_condition(instruction);
+            const bool is_condition = makes_condition(instruction.op);
             const std::string name = fmt::format("{}{}", is_condition ? "c" : "t", names_++);
             out_.statements.push_back(fmt::format("{} {} = {};", is_condition ? "bvec2" : "f16vec2",
                                                   name, value(instruction)));
@@ -68,20 +68,6 @@ private:
             known->second = {name, is_condition};
         }
         return known->second;
-    }
-
-    static bool makes_condition(const Instruction& instruction)
-    {
-        switch (instruction.op) {
-        case TapeOp::less:
-        case TapeOp::less_equal:
-        case TapeOp::equal:
-        case TapeOp::not_equal:
-        case TapeOp::logical_and:
-        case TapeOp::logical_or:
-        case TapeOp::logical_not: return true;
-        default: return false;
-        }
     }
 
     std::string number(Slot slot) const
