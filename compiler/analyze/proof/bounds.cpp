@@ -18,7 +18,6 @@ using evaluate::Interval;
 using evaluate::Machine;
 using evaluate::RoundingBounds;
 
-/// Sharper than this times the observed error is not worth the time.
 /// A cut that leaves more than this of the bound is no better than any other.
 constexpr double worthwhile_near = 0.9;
 constexpr double worthwhile_far = 0.1;
@@ -39,10 +38,6 @@ Interval around(double x, const Interval& side)
         std::max(std::min({size, from_one, width}) / 64, std::min(width, 1.0) * 0x1p-24);
     return {std::max(side.low, x - radius), std::min(side.high, x + radius)};
 }
-
-}  // namespace
-
-namespace {
 
 /// The whole box, cut where an input is compared with a number: on either side every condition of
 /// this kind is decided, and what it chooses has slopes.
