@@ -292,7 +292,9 @@ void add_specialize(CLI::App& app, const Terminal& terminal, int& status)
                    "Leave out the functions that shade under the kinds of light the scene has")
         ->group(which);
     const std::string what = "The certificate";
-    command->add_option("--points", specialize->points, "Points per output")
+    command
+        ->add_option("--points", specialize->points,
+                     "Points per output; a quarter of them where both are proved one graph")
         ->check(CLI::Range(std::size_t{64}, std::size_t{1} << 24))
         ->capture_default_str()
         ->group(what);

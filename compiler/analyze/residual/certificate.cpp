@@ -18,6 +18,10 @@ namespace {
 /// Points that one thread takes at a time.
 constexpr std::size_t chunk = 512;
 
+/// What is proved needs no points; so many of them hold the proof itself, and the emitted text on
+/// the device, against the general function.
+constexpr std::size_t share_of_proved = 4;
+
 /// What was dropped is compared where it is off; an effect that is off has its own constants, or
 /// what the residual set in place of a range.
 SceneBox scene_box(const ir::Module& general, const CertificateSubject& subject)
@@ -123,11 +127,10 @@ private:
 class Work {
 public:
     Work(const ir::Module& general, const ir::Module& residual, const Pair& pair,
-         const Sources& sources, const SceneBox& box, const CertificateOptions& options,
-         Devices& devices)
+         const Sources& sources, const SceneBox& box, std::size_t points, Devices& devices)
         : residual_(residual), pair_(pair), sources_(sources),
           comparison_(general, ir::entry_point(general, pair.meant), residual,
-                      ir::entry_point(residual, pair.emitted), box, options.points)
+                      ir::entry_point(residual, pair.emitted), box, points)
     {
         // The device is part of what results depend on.
         auto device = devices.take();
@@ -190,20 +193,28 @@ void compare(std::vector<Item*>& items, const CertificateOptions& options, Devic
 {
     for_each_task(items.size(), options.jobs,
                   [&](std::size_t i) { items[i]->work->execute(devices); });
-    const std::size_t chunks = (options.points + chunk - 1) / chunk;
-    std::vector<Disagreement> counts(items.size() * chunks);
-    for_each_task(counts.size(), options.jobs, [&](std::size_t task) {
-        const Work& work = *items[task / chunks]->work;
-        const std::size_t first = task % chunks * chunk;
-        counts[task] = work.comparison().count(first, std::min(chunk, options.points - first),
-                                               work.on_device());
+    struct Part {
+        std::size_t item = 0;
+        std::size_t first = 0;
+        Disagreement found;
+    };
+    std::vector<Part> parts;
+    for (std::size_t i = 0; i < items.size(); ++i)
+        for (std::size_t first = 0; first < items[i]->work->comparison().points(); first += chunk)
+            parts.push_back({i, first, {}});
+    for_each_task(parts.size(), options.jobs, [&](std::size_t task) {
+        Part& part = parts[task];
+        const Work& work = *items[part.item]->work;
+        const std::size_t left = work.comparison().points() - part.first;
+        part.found = work.comparison().count(part.first, std::min(chunk, left), work.on_device());
     });
+    std::vector<Disagreement> found(items.size());
+    for (const Part& part : parts) found[part.item].add(part.found);
     for (std::size_t i = 0; i < items.size(); ++i) {
-        Disagreement all;
-        for (std::size_t k = 0; k < chunks; ++k) all.add(counts[i * chunks + k]);
+        const Disagreement& all = found[i];
         std::string line;
-        write_line(line, options.points, all.outside, all.worst, all.device_outside,
-                   items[i]->work->device());
+        write_line(line, items[i]->work->comparison().points(), all.outside, all.worst,
+                   all.device_outside, items[i]->work->device());
         if (store.save) store.save(items[i]->work->key(), line);
         items[i]->known = std::move(line);
     }
@@ -248,8 +259,10 @@ std::vector<Certificate> certify(const ir::Module& general, const Sources& sourc
         for (Item& item : some) items.push_back(&item);
     for_each_task(items.size(), options.jobs, [&](std::size_t i) {
         Item& item = *items[i];
+        const std::size_t points =
+            item.equality.same_graph ? options.points / share_of_proved : options.points;
         item.work = std::make_unique<Work>(whole, residuals[item.subject], item.pair, sources,
-                                           item.box, options, devices);
+                                           item.box, points, devices);
         if (store.load) item.known = store.load(item.work->key());
     });
     std::vector<Item*> unknown;

@@ -27,7 +27,7 @@ struct Dropped {
 struct Equality {
     std::string output;       ///< `diffuse`, `under sphere`
     bool same_graph = false;  ///< proved: after `optimize` both are one graph, input for input
-    std::size_t points = 0;   ///< of the scene's box, a quarter of them hostile
+    std::size_t points = 0;   ///< compared, of the scene's box, a quarter of them hostile
     std::size_t outside = 0;  ///< where the residual's exact value is none that the general one's
                               ///< acceptance interval allows
     double worst = 0;         ///< differences are at most so many of that interval's half widths
@@ -47,7 +47,7 @@ struct Certificate {
 };
 
 struct CertificateOptions {
-    std::size_t points = 16384;  ///< per output
+    std::size_t points = 16384;  ///< per output; of those proved a quarter
     double epsilon = 0;          ///< 0: drop nothing
     bool execute = true;
     std::string device;
