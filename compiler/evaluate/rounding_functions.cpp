@@ -185,13 +185,13 @@ Step Rules::logarithm(double scale)
     }
     Own own = correctly(through, false);
     if (rounding_.machine == Machine::vulkan) {
-        const double outside = 3 * rounding_.unit * (1 + 0x1p-8) * size(through);
+        // Relative, but near 1, where it is so much whatever the result is.
+        const double relative = 3 * rounding_.unit * (1 + 0x1p-8);
         const bool inside = a().computed.low <= 2 && a().computed.high >= 0.5;
-        const double off =
-            std::max(outside, inside ? (rounding_.digits == 24 ? 0x1p-21 : 0x1p-7) : 0.0);
-        own = within(through, infinity, off, true);
-        if (least_size(through) > 0) own.relative = outward(off / least_size(through));
-        own.absolute = outward(off + own.underflow);
+        const double near = inside ? (rounding_.digits == 24 ? 0x1p-21 : 0x1p-7) : 0.0;
+        own = within(through, relative, infinity, true);
+        own.underflow = outward(own.underflow + near);
+        own.absolute = outward(std::max(relative * size(through), near) + own.underflow);
     } else if (op_ == TapeOp::log2 && rounding_.digits == 24) {
         own = within(through, log2_error, infinity, false);
     }
