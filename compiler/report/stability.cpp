@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace lobe::report {
 namespace {
@@ -59,6 +61,7 @@ struct Count {
                 laws = 0, broken_laws = 0;
     double worst_ratio = 0;
     std::string worst_function;
+    std::vector<std::string> unbounded;
 };
 
 Count count(Stabilities stabilities)
@@ -69,6 +72,10 @@ Count count(Stabilities stabilities)
             if (proof.precision != Precision::float32) continue;
             ++out.functions;
             out.open += proof.open_count;
+            if (proof.ieee.ratio() >= analyze::ErrorBound::useless) {
+                out.unbounded.push_back(proof.function);
+                continue;
+            }
             if (proof.ieee.ratio() <= out.worst_ratio) continue;
             out.worst_ratio = proof.ieee.ratio();
             out.worst_function = proof.function;
@@ -126,8 +133,11 @@ std::string summary(Stabilities stabilities, const Look& look)
                                             grouped(sum.functions)),
                                 Style::bad, look.color));
     line("bounds",
-         fmt::format("at most {} times the observed error{}", short_number(sum.worst_ratio),
-                     sum.worst_function.empty() ? "" : " (" + sum.worst_function + ")"));
+         fmt::format("at most {} times the observed error{}{}", short_number(sum.worst_ratio),
+                     sum.worst_function.empty() ? "" : " (" + sum.worst_function + ")",
+                     sum.unbounded.empty()
+                         ? ""
+                         : fmt::format("; none for {}", fmt::join(sum.unbounded, ", "))));
     if (sum.hazards > 0)
         line("hazards", fmt::format("{} in the naive spelling, {} with a remedy",
                                     grouped(sum.hazards), grouped(sum.remedied)));

@@ -91,6 +91,16 @@ TEST_CASE("an open box or a NaN is said by every form")
                Contains(open ? "3 open boxes" : "5 NaN, infinite or not run"));
 }
 
+TEST_CASE("a bound that says nothing is told as none")
+{
+    analyze::Stability stability = sample();
+    analyze::Proof vague = proof("integral");
+    vague.ieee.absolute = 1e30;
+    stability.proofs.push_back(vague);
+    CHECK_THAT(report::summary({&stability, 1}, {}),
+               Contains("at most 4 times the observed error (V); none for integral\n"));
+}
+
 TEST_CASE("nothing open and nothing infinite is a success in every form")
 {
     const analyze::Stability stability = sample();

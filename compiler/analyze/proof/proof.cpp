@@ -35,8 +35,6 @@ constexpr double sharp_vulkan = 16;
 constexpr double wanted = 8;
 /// How often worse points are looked for where it is.
 constexpr std::uint64_t most_rounds = 16;
-/// From here no budget gets there.
-constexpr double hopeless = 1e6;
 
 // ---- a proof as text
 
@@ -250,7 +248,7 @@ private:
         std::ranges::stable_sort(measures, {}, &Bound::ratio);
         const auto is_far = [&measures] {
             const double ratio = std::min(measures[0]->ratio(), measures[1]->ratio());
-            return ratio > wanted && ratio < hopeless;
+            return ratio > wanted && ratio < ErrorBound::useless;
         };
         for (Bound* const measure : measures)
             if (is_far()) measure->refine(share(1), wanted);

@@ -41,6 +41,8 @@ struct ErrorBound {
 
     /// The smaller of both bounds' ratios to what was observed; 1 where both are 0.
     double ratio() const;
+    /// A bound so many times what was observed says nothing, and no budget makes it better.
+    static constexpr double useless = 1e6;
 };
 
 struct Proof {
