@@ -41,13 +41,6 @@ bool is_choice(TapeOp op, Interval first)
     }
 }
 
-/// Smoothstep is its polynomial alone.
-Interval value_of(TapeOp op, const std::array<Interval, 4>& in)
-{
-    return op == TapeOp::smoothstep ? smoothstep({0, 0}, {1, 1}, in[0])
-                                    : apply(op, in[0], in[1], in[2], in[3]);
-}
-
 double middle(Interval x) { return x.low / 2 + x.high / 2; }
 
 /// True for an operand whose error an adjoint may carry in these units.
@@ -57,8 +50,6 @@ Interval scaled(Interval adjoint, Interval slope)
 {
     return is_bounded(slope) ? multiply(adjoint, slope) : Interval{};
 }
-
-}  // namespace
 
 /// What is squared, of a root of a sum of squares; else nothing.
 std::vector<std::uint32_t> components(const RoundingTape& tape, const RoundingNode& root)
@@ -77,10 +68,7 @@ std::vector<std::uint32_t> components(const RoundingTape& tape, const RoundingNo
     return result;
 }
 
-RoundingBounds::RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor)
-    : RoundingBounds{tape, rounding, floor, {}}
-{
-}
+}  // namespace
 
 RoundingBounds::RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor,
                                std::vector<Rounded> given)

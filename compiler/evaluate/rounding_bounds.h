@@ -25,10 +25,9 @@ struct BoxError {
 /// A tape made ready for many boxes.
 class RoundingBounds {
 public:
-    RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor);
-    /// With inputs that are results (waist.h): what each is over its whole range.
+    /// `given`: where inputs are results (waist.h), what each is over its whole range.
     RoundingBounds(const RoundingTape& tape, const Rounding& rounding, double floor,
-                   std::vector<Rounded> given);
+                   std::vector<Rounded> given = {});
 
     /// One interval per input of the tape.
     BoxError error(std::span<const Interval> box);

@@ -1,5 +1,7 @@
 #include "evaluate/rounding_tape.h"
 
+#include "evaluate/intervals.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -234,6 +236,12 @@ private:
 RoundingTape rounding_tape(const Tape& tape, std::size_t output, Detail detail)
 {
     return Builder{tape, output, detail}.take();
+}
+
+Interval value_of(TapeOp op, const std::array<Interval, 4>& operands)
+{
+    const auto& [a, b, c, d] = operands;
+    return op == TapeOp::smoothstep ? smoothstep({0, 0}, {1, 1}, a) : apply(op, a, b, c, d);
 }
 
 std::string dump(const RoundingTape& tape)

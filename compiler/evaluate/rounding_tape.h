@@ -5,6 +5,7 @@
 // by |a| / k. Without that no guarded quotient could be proved finite.
 #pragma once
 
+#include "evaluate/interval.h"
 #include "evaluate/tape.h"
 
 #include <array>
@@ -53,6 +54,9 @@ enum class Detail : std::uint8_t {
 };
 
 RoundingTape rounding_tape(const Tape& tape, std::size_t output, Detail detail);
+
+/// An operation over the reals. Smoothstep is its polynomial of one operand here.
+Interval value_of(TapeOp op, const std::array<Interval, 4>& operands);
 
 /// One line per node. Two outputs with the same text are the same function of their inputs.
 std::string dump(const RoundingTape& tape);

@@ -3,9 +3,9 @@
 #include "analyze/grid.h"
 #include "analyze/proof/search.h"
 #include "analyze/random.h"
-#include "evaluate/intervals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -45,9 +45,7 @@ public:
             std::array<Interval, 4> in{};
             for (std::size_t k = 0; k < static_cast<std::size_t>(each.arity); ++k)
                 in[k] = values_[each.operands[k]];
-            values_[i] = each.op == TapeOp::smoothstep
-                             ? evaluate::smoothstep({0, 0}, {1, 1}, in[0])
-                             : evaluate::apply(each.op, in[0], in[1], in[2], in[3]);
+            values_[i] = evaluate::value_of(each.op, in);
         }
         const RoundingNode& last = subject_.steps.nodes[node];
         return is_choice(last.op)
