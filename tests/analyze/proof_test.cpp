@@ -1,19 +1,17 @@
 // What is proved of everything that ships: finite, and closer to what is observed than the figures
 // demand. And that it is true: points of random boxes stay in their bounds.
+#include "analyze/checked.h"
 #include "analyze/proof/bounds.h"
 #include "analyze/proof/finite.h"
 #include "analyze/proof/proof.h"
 #include "analyze/proof/zeros.h"
 #include "analyze/random.h"
-#include "base/render.h"
 #include "compile.h"
 #include "evaluate/bounds.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
 
@@ -24,41 +22,12 @@ using evaluate::Precision;
 
 namespace {
 
-std::optional<std::uint32_t> add_model(Sources& sources, std::string_view name)
+ir::Module model(const std::string& name)
 {
-    const std::string path = "models/" + std::string{name} + ".lobe";
-    std::ifstream in{"../" + path, std::ios::binary};
-    if (!in) return std::nullopt;
-    return sources.add(path, {std::istreambuf_iterator<char>{in}, {}});
+    return middle(tests::checked_model("../models/" + name + ".lobe").module);
 }
 
-ir::Module checked(Sources& sources, std::optional<std::uint32_t> root)
-{
-    REQUIRE(root);
-    Diagnostics diagnostics;
-    const auto module = front(
-        sources, *root,
-        [](Sources& all, std::string_view imported, std::string_view) {
-            return add_model(all, imported);
-        },
-        diagnostics);
-    INFO(render_text(sources, diagnostics));
-    REQUIRE(module);
-    return middle(*module);
-}
-
-ir::Module model(std::string_view name)
-{
-    Sources sources;
-    return checked(sources, add_model(sources, name));
-}
-
-ir::Module text(const std::string& source)
-{
-    Sources sources;
-    const std::uint32_t root = sources.add("test.lobe", source);
-    return checked(sources, root);
-}
+ir::Module text(const std::string& source) { return middle(tests::checked_text(source).module); }
 
 std::vector<ir::FunctionId> terms(const ir::Module& module)
 {

@@ -1,26 +1,17 @@
 // The models that ship agree with every witness, on every target. `lobec verify models` does the
 // same at all 65,536 points; an eighth of them keeps the test quick.
+#include "analyze/checked.h"
 #include "analyze/verify.h"
 #include "base/render.h"
 #include "compile.h"
 
 #include <catch2/catch.hpp>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 
 using namespace lobe;
 
 namespace {
-
-std::optional<std::uint32_t> add_model(Sources& sources, std::string_view name)
-{
-    const std::string path = "models/" + std::string{name} + ".lobe";
-    std::ifstream in{"../" + path, std::ios::binary};
-    if (!in) return std::nullopt;
-    return sources.add(path, {std::istreambuf_iterator<char>{in}, {}});
-}
 
 /// One line per thing that is wrong, so that a failure says what to look at.
 std::string complaints_of(const analyze::Verification& verification, const ir::Module& module,
@@ -43,20 +34,9 @@ TEST_CASE("every shipped function agrees on every target and both routes", "[shi
 {
     const std::string name = GENERATE("microfacet", "callisto", "ue4", "environment", "lights");
     CAPTURE(name);
-    Sources sources;
-    Diagnostics diagnostics;
-    const auto root = add_model(sources, name);
-    REQUIRE(root);
-    const auto module = front(
-        sources, *root,
-        [](Sources& all, std::string_view imported, std::string_view) {
-            return add_model(all, imported);
-        },
-        diagnostics);
-    INFO(render_text(sources, diagnostics));
-    REQUIRE(module);
-
-    const ir::Module legal = middle(*module);
+    const tests::Checked checked = tests::checked_model("../models/" + name + ".lobe");
+    const Sources& sources = checked.sources;
+    const ir::Module legal = middle(checked.module);
     analyze::VerifyOptions options;
     options.points = 8192;
     const analyze::Verification result = analyze::verify(legal, sources, options);
@@ -81,20 +61,12 @@ TEST_CASE("every shipped function agrees on every target and both routes", "[shi
 
 TEST_CASE("what shades a model under a light agrees on every target", "[shipped][device][lights]")
 {
-    Sources sources;
-    Diagnostics diagnostics;
-    const auto root = sources.add("scene.lobe", "module scene\n"
-                                                "import callisto { callisto_lambert }\n"
-                                                "import lights { punctual, spot, capsule }\n");
-    const auto module = front(
-        sources, root,
-        [](Sources& all, std::string_view imported, std::string_view) {
-            return add_model(all, imported);
-        },
-        diagnostics);
-    INFO(render_text(sources, diagnostics));
-    REQUIRE(module);
-    const ir::Module legal = middle(*module);
+    const tests::Checked checked =
+        tests::checked_text("module scene\n"
+                            "import callisto { callisto_lambert }\n"
+                            "import lights { punctual, spot, capsule }\n");
+    const Sources& sources = checked.sources;
+    const ir::Module legal = middle(checked.module);
     analyze::VerifyOptions options;
     options.points = 1024;
     options.precisions = {emit::Precision::float32};
